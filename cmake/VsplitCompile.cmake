@@ -1,0 +1,17 @@
+# One place for how every target of the project is compiled: `target_link_libraries(x PRIVATE vsplit_compile)`.
+add_library(vsplit_compile INTERFACE)
+target_compile_features(vsplit_compile INTERFACE cxx_std_20)
+target_compile_options(vsplit_compile INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+  # A multiply and an add must not fuse on one machine and not on another: results are the same bits everywhere.
+  -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # g++ 12 warns of array bounds and uninitialised values inside Eigen and the standard library that are not there.
+  target_compile_options(vsplit_compile INTERFACE -Wno-array-bounds -Wno-maybe-uninitialized -Wno-stringop-overflow -Wno-restrict)
+endif()
+
+# Sanitizers hold for the whole build, tests and libraries alike.
+if(VSPLIT_SANITIZE)
+  add_compile_options(-fsanitize=${VSPLIT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${VSPLIT_SANITIZE})
+endif()

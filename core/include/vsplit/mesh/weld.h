@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+
+#include "vsplit/base/expected.h"
+#include "vsplit/mesh/triangle_mesh.h"
+
+namespace vsplit {
+
+/// What a weld changed.
+struct WeldCounts {
+    std::uint32_t merged_vertices = 0;   ///< vertices that became another one
+    std::uint32_t unused_vertices = 0;   ///< vertices no face used, dropped
+    std::uint32_t collapsed_faces = 0;   ///< faces with two equal corners after merging, dropped: they have no area and no inside
+};
+
+/// Merges vertices that are equal (`tolerance` 0; -0 equals 0), or within `tolerance` (length, model units) of a vertex that
+/// came earlier, and drops what that leaves without use. Vertices keep the order of their first appearance, faces theirs.
+///
+/// \pre coordinates are finite.
+/// \return INVALID_OPTION for a negative, NaN or infinite tolerance.
+/// Complexity: O(n) expected for tolerance 0 or well below the vertex spacing. Memory: 20 bytes a vertex.
+[[nodiscard]] Expected<WeldCounts> weld(TriangleMesh& mesh, double tolerance);
+
+}  // namespace vsplit

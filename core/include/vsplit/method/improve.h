@@ -1,0 +1,24 @@
+#pragma once
+
+#include "vsplit/base/execution_context.h"
+#include "vsplit/base/expected.h"
+#include "vsplit/mesh/triangle_mesh.h"
+#include "vsplit/method/method_options.h"
+#include "vsplit/method/method_result.h"
+
+namespace vsplit {
+
+/// `options` with every field filled in for this mesh (max_deviation stays empty: no bound). O(faces).
+[[nodiscard]] ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits);
+
+/// Mesh quality improvement, [Date05] 4: subdivides until no edge is longer than sigma_SZ, then collapses edges in the order
+/// of quality gained, within the tolerance, and keeps every collapse as a vertex split.
+///
+/// Stages: "inspect", "subdivide", "evaluate", "simplify". The same input and options give the same bits for any thread count.
+/// \return EMPTY_INPUT, NON_MANIFOLD or OPEN_MESH for a mesh that is not a closed 2-manifold; INVALID_OPTION, UNSUPPORTED,
+///         LIMIT_EXCEEDED, CANCELLED.
+/// Complexity: O(n log n) in the faces after subdivision, for bounded valence. Memory: about 250 bytes a face.
+[[nodiscard]] Expected<MethodResult> improve(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
+                                             const ExecutionContext& context);
+
+}  // namespace vsplit

@@ -1,0 +1,25 @@
+#pragma once
+
+/// Everything the engine offers.
+
+#include "vsplit/base/error.h"
+#include "vsplit/base/execution_context.h"
+#include "vsplit/base/expected.h"
+#include "vsplit/features/face_normals.h"
+#include "vsplit/features/sharp_edges.h"
+#include "vsplit/io/mesh_format.h"
+#include "vsplit/io/read_mesh.h"
+#include "vsplit/io/write_mesh.h"
+#include "vsplit/mesh/inspect.h"
+#include "vsplit/mesh/triangle_mesh.h"
+#include "vsplit/mesh/weld.h"
+#include "vsplit/method/control.h"
+#include "vsplit/method/improve.h"
+#include "vsplit/mrr/mrr_file.h"
+#include "vsplit/mrr/multires_mesh.h"
+#include "vsplit/mrr/progressive_mesh.h"
+#include "vsplit/mrr/record_block.h"
+#include "vsplit/quality/mesh_quality.h"
+#include "vsplit/quality/stretch.h"
+#include "vsplit/simplify/quadric.h"
+#include "vsplit/subdivide/subdivide.h"

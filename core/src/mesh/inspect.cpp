@@ -1,0 +1,235 @@
+#include "vsplit/mesh/inspect.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "mesh/half_edges.h"
+#include "vsplit/quality/stretch.h"
+
+namespace vsplit {
+namespace {
+
+constexpr double kDegenerateStretch = 1e-9;
+
+/// Disjoint sets with path halving; roots are the smallest members.
+class DisjointSets {
+public:
+    explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+
+    std::uint32_t find(std::uint32_t x) {
+        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+        return x;
+    }
+    void join(std::uint32_t x, std::uint32_t y) {
+        x = find(x);
+        y = find(y);
+        if (x != y) parent_[std::max(x, y)] = std::min(x, y);
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// Counts things of one kind and keeps the first few places.
+class FindingCounter {
+public:
+    explicit FindingCounter(Finding::Kind kind) { finding_.kind = kind; }
+
+    void add(std::initializer_list<std::uint32_t> element) {
+        if (finding_.count++ < Finding::kExamples) finding_.elements.insert(finding_.elements.end(), element);
+    }
+    [[nodiscard]] std::uint32_t count() const { return finding_.count; }
+
+    /// `what` reads like "boundary edges (one face only)", `where` like "edge" or "face".
+    void report(std::vector<Finding>& findings, std::string_view what, std::string_view where) {
+        if (finding_.count == 0) return;
+        finding_.message = std::to_string(finding_.count) + " " + std::string(what) + "; first at " + std::string(where) + " ";
+        finding_.message += where == "edge" ? std::to_string(finding_.elements[0]) + "-" + std::to_string(finding_.elements[1])
+                                            : std::to_string(finding_.elements[0]);
+        findings.push_back(std::move(finding_));
+    }
+
+private:
+    Finding finding_;
+};
+
+/// What edges tell: boundary, manifoldness, orientation, components.
+struct EdgeSurvey {
+    FindingCounter boundary{Finding::Kind::kBoundaryEdge};
+    FindingCounter non_manifold{Finding::Kind::kNonManifoldEdge};
+    FindingCounter inconsistent{Finding::Kind::kInconsistentEdge};
+    std::uint32_t edges = 0;
+    std::uint32_t components = 0;
+};
+
+EdgeSurvey survey_edges(const TriangleMesh& mesh) {
+    EdgeSurvey survey;
+    DisjointSets parts(mesh.faces.size());
+    EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
+        ++survey.edges;
+        for (const auto* other = first + 1; other != last; ++other) parts.join(face_of(first->half_edge), face_of(other->half_edge));
+        if (last - first == 1) survey.boundary.add({first->a(), first->b()});
+        if (last - first > 2) survey.non_manifold.add({first->a(), first->b()});
+        if (last - first == 2 && origin(mesh, first[0].half_edge) == origin(mesh, first[1].half_edge)) {
+            survey.inconsistent.add({first->a(), first->b()});
+        }
+    });
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) survey.components += parts.find(f) == f ? 1 : 0;
+    return survey;
+}
+
+/// Vertices whose faces form more than one fan around them. Corners joined across shared edges at the same vertex are one fan.
+FindingCounter survey_vertices(const TriangleMesh& mesh) {
+    DisjointSets fans(mesh.faces.size() * 3);
+    const auto corner_at = [&](HalfEdge h, std::uint32_t vertex) { return origin(mesh, h) == vertex ? h : next(h); };
+    EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
+        for (const auto* other = first + 1; other != last; ++other) {
+            fans.join(corner_at(first->half_edge, first->a()), corner_at(other->half_edge, first->a()));
+            fans.join(corner_at(first->half_edge, first->b()), corner_at(other->half_edge, first->b()));
+        }
+    });
+    std::vector<std::uint32_t> fan_of(mesh.positions.size(), kNone);
+    std::vector<bool> several(mesh.positions.size(), false);
+    for (HalfEdge h = 0; h < mesh.faces.size() * 3; ++h) {
+        const std::uint32_t v = origin(mesh, h);
+        const std::uint32_t fan = fans.find(h);
+        if (fan_of[v] == kNone) fan_of[v] = fan;
+        if (fan_of[v] != fan) several[v] = true;
+    }
+    FindingCounter counter(Finding::Kind::kNonManifoldVertex);
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        if (several[v]) counter.add({v});
+    }
+    return counter;
+}
+
+FindingCounter survey_degenerate(const TriangleMesh& mesh) {
+    FindingCounter counter(Finding::Kind::kDegenerateFace);
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const Triangle& t = mesh.faces[f];
+        if (stretch(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]) < kDegenerateStretch) counter.add({f});
+    }
+    return counter;
+}
+
+FindingCounter survey_duplicates(const TriangleMesh& mesh) {
+    std::vector<std::pair<Triangle, std::uint32_t>> sorted(mesh.faces.size());
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        Triangle t = mesh.faces[f];
+        std::sort(t.begin(), t.end());
+        sorted[f] = {t, f};
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::uint32_t> repeats;
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+        if (sorted[i].first == sorted[i - 1].first) repeats.push_back(sorted[i].second);
+    }
+    std::sort(repeats.begin(), repeats.end());
+    FindingCounter counter(Finding::Kind::kDuplicateFace);
+    for (const std::uint32_t f : repeats) counter.add({f});
+    return counter;
+}
+
+std::uint32_t used_vertices(const TriangleMesh& mesh) {
+    std::vector<bool> used(mesh.positions.size(), false);
+    for (const Triangle& f : mesh.faces) {
+        for (const std::uint32_t v : f) used[v] = true;
+    }
+    return static_cast<std::uint32_t>(std::count(used.begin(), used.end(), true));
+}
+
+const Finding* find_kind(const MeshReport& report, Finding::Kind kind) {
+    const auto found = std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& f) { return f.kind == kind; });
+    return found == report.findings.end() ? nullptr : &*found;
+}
+
+/// "edges 1-2, 3-4, 5-6, ..." or "vertices 1, 2, ...": where to look, a handful of them.
+std::string places(const Finding& finding, bool edges) {
+    constexpr std::size_t kShown = 5;
+    const std::size_t stride = edges ? 2 : 1;
+    std::string text = edges ? "edges " : "vertices ";
+    for (std::size_t i = 0; i < std::min<std::size_t>(kShown, finding.count) && (i + 1) * stride <= finding.elements.size(); ++i) {
+        if (i > 0) text += ", ";
+        text += std::to_string(finding.elements[i * stride]);
+        if (edges) text += "-" + std::to_string(finding.elements[i * stride + 1]);
+    }
+    return finding.count > kShown ? text + ", ..." : text;
+}
+
+}  // namespace
+
+std::string_view finding_name(Finding::Kind kind) {
+    switch (kind) {
+        case Finding::Kind::kBoundaryEdge: return "BOUNDARY_EDGE";
+        case Finding::Kind::kNonManifoldEdge: return "NON_MANIFOLD_EDGE";
+        case Finding::Kind::kInconsistentEdge: return "INCONSISTENT_EDGE";
+        case Finding::Kind::kNonManifoldVertex: return "NON_MANIFOLD_VERTEX";
+        case Finding::Kind::kDegenerateFace: return "DEGENERATE_FACE";
+        case Finding::Kind::kDuplicateFace: return "DUPLICATE_FACE";
+        case Finding::Kind::kMergedVertex: return "MERGED_VERTEX";
+        case Finding::Kind::kUnusedVertex: return "UNUSED_VERTEX";
+        case Finding::Kind::kCollapsedFace: return "COLLAPSED_FACE";
+    }
+    return "UNKNOWN";
+}
+
+MeshReport inspect(const TriangleMesh& mesh) {
+    MeshReport report;
+    report.vertices = mesh.vertex_count();
+    report.faces = mesh.face_count();
+    report.box = bounding_box(mesh);
+    report.quality = measure_quality(mesh);
+
+    EdgeSurvey edges = survey_edges(mesh);
+    FindingCounter vertices = survey_vertices(mesh);
+    FindingCounter degenerate = survey_degenerate(mesh);
+    FindingCounter duplicates = survey_duplicates(mesh);
+    report.components = edges.components;
+    report.boundary_edges = edges.boundary.count();
+    report.non_manifold_edges = edges.non_manifold.count();
+    report.inconsistent_edges = edges.inconsistent.count();
+    report.non_manifold_vertices = vertices.count();
+    report.degenerate_faces = degenerate.count();
+    report.duplicate_faces = duplicates.count();
+    const bool manifold = report.non_manifold_edges + report.inconsistent_edges + report.non_manifold_vertices == 0;
+    report.closed = manifold && report.boundary_edges == 0 && report.faces > 0;
+    if (report.closed) {
+        const std::int64_t euler = std::int64_t{used_vertices(mesh)} - edges.edges + report.faces;
+        report.genus = static_cast<std::int32_t>(report.components - euler / 2);
+    }
+
+    edges.boundary.report(report.findings, "boundary edges (one face only)", "edge");
+    edges.non_manifold.report(report.findings, "non-manifold edges (more than two faces)", "edge");
+    edges.inconsistent.report(report.findings, "edges whose two faces run along them in the same direction", "edge");
+    vertices.report(report.findings, "non-manifold vertices (more than one fan of faces)", "vertex");
+    degenerate.report(report.findings, "degenerate faces (stretch under 1e-9)", "face");
+    duplicates.report(report.findings, "faces with the same three vertices as an earlier one", "face");
+    return report;
+}
+
+Status require_closed_manifold(const MeshReport& report) {
+    if (report.faces == 0) return Error{Cause::kEmptyInput, "the mesh has no faces; a closed mesh of at least 4 is needed", ""};
+    using Kind = Finding::Kind;
+    if (const Finding* f = find_kind(report, Kind::kNonManifoldEdge)) {
+        return Error{Cause::kNonManifold, std::to_string(f->count) + " edges have more than two faces: " + places(*f, true) +
+                     " (vertex indices); every edge must have exactly two", ""};
+    }
+    if (const Finding* f = find_kind(report, Kind::kInconsistentEdge)) {
+        return Error{Cause::kNonManifold, std::to_string(f->count) + " edges have two faces that disagree on which side is outside: " +
+                     places(*f, true) + " (vertex indices); faces must be oriented consistently", ""};
+    }
+    if (const Finding* f = find_kind(report, Kind::kBoundaryEdge)) {
+        return Error{Cause::kOpenMesh, "the mesh is open: " + std::to_string(f->count) + " edges have one face only: " +
+                     places(*f, true) + " (vertex indices); a closed mesh is needed (a weld tolerance may close small gaps)", ""};
+    }
+    if (const Finding* f = find_kind(report, Kind::kNonManifoldVertex)) {
+        return Error{Cause::kNonManifold, std::to_string(f->count) + " vertices join more than one fan of faces: " +
+                     places(*f, false) + "; every vertex must have one", ""};
+    }
+    return Done{};
+}
+
+}  // namespace vsplit

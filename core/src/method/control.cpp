@@ -1,0 +1,144 @@
+#include "vsplit/method/control.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "method/prepare.h"
+#include "vsplit/mesh/inspect.h"
+#include "vsplit/mrr/progressive_mesh.h"
+#include "vsplit/quality/stretch.h"
+
+namespace vsplit {
+namespace {
+
+constexpr std::uint32_t kDefaultSubdivisions = 1;
+
+ControlPolicy policy_of(const ControlOptions& used, double diagonal) {
+    ControlPolicy policy;
+    policy.min_stretch = *used.min_stretch;
+    if (used.max_size) policy.max_size = *used.max_size;
+    if (used.max_valence) policy.max_valence = *used.max_valence;
+    policy.size_unit = used.max_size.value_or(diagonal);
+    return policy;
+}
+
+/// One-to-four, and midpoints in what is still over max_size: no collapse makes a face smaller.
+Expected<SubdividedMesh> subdivide(const TriangleMesh& mesh, const ControlOptions& used, std::uint32_t face_limit,
+                                   const ExecutionContext& context) {
+    Expected<SubdividedMesh> quartered = subdivide_one_to_four(mesh, *used.subdivisions, face_limit, context);
+    if (!quartered || !used.max_size) return quartered;
+    Expected<SubdividedMesh> fitting = subdivide_to_size(quartered->mesh, *used.max_size, face_limit, context);
+    if (!fitting) {
+        Error error = fitting.error();
+        if (error.field == "subdivision_size") error.field = "max_size";
+        return error;
+    }
+    for (std::uint32_t& parent : fitting->parent) parent = quartered->parent[parent];
+    return fitting;
+}
+
+/// Collects what breaks one bound.
+class ViolationCounter {
+public:
+    ViolationCounter(std::string bound, double limit) {
+        violation_.bound = std::move(bound);
+        violation_.limit = limit;
+        violation_.worst = limit;
+    }
+    void add(std::uint32_t element, double value, bool lower_bound) {
+        if (violation_.count++ < Violation::kExamples) violation_.elements.push_back(element);
+        violation_.worst = lower_bound ? std::min(violation_.worst, value) : std::max(violation_.worst, value);
+    }
+    void move_to(std::vector<Violation>& all) {
+        if (violation_.count > 0) all.push_back(std::move(violation_));
+    }
+
+private:
+    Violation violation_;
+};
+
+std::vector<std::uint32_t> valences(const TriangleMesh& mesh) {
+    std::vector<std::uint32_t> valence(mesh.positions.size(), 0);
+    for (const Triangle& f : mesh.faces) {
+        for (const std::uint32_t v : f) ++valence[v];  // of a closed mesh: as many edges as faces
+    }
+    return valence;
+}
+
+/// Why a bound could not be met: everything was collapsed that may be, or the resolution asked for comes before the mending.
+std::string reason_for(const Violation& violation, bool coarsest) {
+    const std::string what = violation.bound == "max_valence" ? "vertices" : "faces";
+    if (coarsest) return "no valid collapse mends the remaining " + what + " within the tolerance and the other bounds";
+    return "the collapses that mend these " + what + " come at fewer faces than were asked for, or none within the tolerance does";
+}
+
+}  // namespace
+
+ControlOptions default_options(const TriangleMesh& mesh, const ControlOptions& options) {
+    ControlOptions used = options;
+    used.subdivisions = options.subdivisions.value_or(kDefaultSubdivisions);
+    used.tolerance = options.tolerance ? *options.tolerance : kDefaultToleranceShare * bounding_box(mesh).diagonal();
+    used.min_stretch = options.min_stretch.value_or(kStretchFloor);
+    used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
+    used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
+    used.faces = options.faces ? *options.faces : std::max(mesh.face_count(), options.faces_min.value_or(kLeastFaces));
+    used.faces_min = options.faces_min.value_or(kLeastFaces);
+    used.mode = options.mode.value_or(Mode::kStrict);
+    return used;
+}
+
+std::vector<Violation> find_violations(const TriangleMesh& mesh, const ControlOptions& options) {
+    std::vector<Violation> all;
+    if (options.min_stretch) {
+        ViolationCounter counter("min_stretch", *options.min_stretch);
+        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+            const Triangle& t = mesh.faces[f];
+            const double s = stretch(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+            if (s < *options.min_stretch) counter.add(f, s, true);
+        }
+        counter.move_to(all);
+    }
+    if (options.max_size) {
+        ViolationCounter counter("max_size", *options.max_size);
+        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+            const Triangle& t = mesh.faces[f];
+            const double size = face_size(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+            if (size > *options.max_size) counter.add(f, size, false);
+        }
+        counter.move_to(all);
+    }
+    if (options.max_valence) {
+        ViolationCounter counter("max_valence", *options.max_valence);
+        const std::vector<std::uint32_t> valence = valences(mesh);
+        for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+            if (valence[v] > *options.max_valence) counter.add(v, valence[v], false);
+        }
+        counter.move_to(all);
+    }
+    return all;
+}
+
+Expected<MethodResult> control(const TriangleMesh& mesh, const ControlOptions& options, const MethodLimits& limits,
+                               const ExecutionContext& context) {
+    const auto start = std::chrono::steady_clock::now();
+    if (Status valid = check_options(options); !valid) return valid.error();
+    context.report({"inspect", 0, mesh.face_count()});
+    if (Status closed = require_closed_manifold(inspect(mesh)); !closed) return closed.error();
+    const ControlOptions used = default_options(mesh, options);
+
+    Expected<SubdividedMesh> subdivided = subdivide(mesh, used, limits.max_faces, context);
+    if (!subdivided) return subdivided.error();
+    SimplifyInput input =
+        prepare(mesh, std::move(*subdivided), {*used.feature_angle, *used.feature_weight, *used.tolerance, *used.faces_min});
+    Expected<MultiresMesh> mrr = simplify(std::move(input), policy_of(used, bounding_box(mesh).diagonal()), context);
+    if (!mrr) return mrr.error();
+    MethodResult result = describe_resolution(std::move(*mrr), *used.faces);
+    result.violations = find_violations(mesh_at(result.mrr, result.mrr.level_for(result.faces)), used);
+    for (Violation& violation : result.violations) violation.reason = reason_for(violation, result.faces == result.mrr.faces_min());
+    result.elapsed = std::chrono::steady_clock::now() - start;
+    return result;
+}
+
+}  // namespace vsplit

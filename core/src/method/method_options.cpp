@@ -1,0 +1,86 @@
+#include "vsplit/method/method_options.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace vsplit {
+namespace {
+
+std::string number(double value) {
+    std::array<char, 32> text{};
+    const int length = std::snprintf(text.data(), text.size(), "%g", value);
+    return {text.data(), static_cast<std::size_t>(length)};
+}
+
+Error invalid(const std::string& field, const std::string& was, const std::string& accepted) {
+    return {Cause::kInvalidOption, field + " is " + was + "; accepted is " + accepted, field};
+}
+
+/// An interval of doubles, either end open or closed.
+struct Range {
+    double low = 0;
+    double high = 0;
+    bool low_included = true;
+    const char* words = "";
+};
+
+constexpr Range kPositive{0, 1e300, false, "a positive finite length"};
+constexpr Range kAngle{0, 180, true, "0 to 180 degrees"};
+constexpr Range kWeight{0, 1e6, true, "0 to 1e6"};
+constexpr Range kStretch{0, 1, true, "0 to 1"};
+constexpr std::uint32_t kMaxSubdivisions = 12;
+constexpr std::uint32_t kLeastValenceBound = 6;
+
+Status check_range(const std::optional<double>& value, const Range& range, const char* field) {
+    if (!value) return Done{};
+    const bool inside = (range.low_included ? *value >= range.low : *value > range.low) && *value <= range.high;
+    return inside ? Status(Done{}) : invalid(field, number(*value), range.words);  // NaN is never inside
+}
+
+Status check_faces(const std::optional<std::uint32_t>& faces, const std::optional<std::uint32_t>& faces_min) {
+    if (faces && *faces < kLeastFaces) return invalid("faces", std::to_string(*faces), "at least 4");
+    if (faces_min && *faces_min < kLeastFaces) return invalid("faces_min", std::to_string(*faces_min), "at least 4");
+    if (faces && faces_min && *faces_min > *faces) {
+        return invalid("faces_min", std::to_string(*faces_min), "at most faces, which is " + std::to_string(*faces));
+    }
+    return Done{};
+}
+
+/// What both methods share.
+template <class Options>
+Status check_common(const Options& options) {
+    if (options.max_deviation) {
+        return Error{Cause::kUnsupported, "max_deviation comes with the extended mode, which this version does not offer; leave it out "
+                     "and bound the quadric error with tolerance", "max_deviation"};
+    }
+    if (options.mode == Mode::kExtended) {
+        return Error{Cause::kUnsupported, "mode EXTENDED is not offered by this version; accepted is STRICT", "mode"};
+    }
+    if (Status s = check_range(options.tolerance, kPositive, "tolerance"); !s) return s;
+    if (Status s = check_range(options.feature_angle, kAngle, "feature_angle"); !s) return s;
+    if (Status s = check_range(options.feature_weight, kWeight, "feature_weight"); !s) return s;
+    return check_faces(options.faces, options.faces_min);
+}
+
+}  // namespace
+
+Status check_options(const ImproveOptions& options) {
+    if (Status s = check_range(options.subdivision_size, kPositive, "subdivision_size"); !s) return s;
+    return check_common(options);
+}
+
+Status check_options(const ControlOptions& options) {
+    if (options.subdivisions && *options.subdivisions > kMaxSubdivisions) {
+        return invalid("subdivisions", std::to_string(*options.subdivisions), "0 to 12");
+    }
+    if (Status s = check_range(options.min_stretch, kStretch, "min_stretch"); !s) return s;
+    if (Status s = check_range(options.max_size, kPositive, "max_size"); !s) return s;
+    if (options.max_valence && *options.max_valence < kLeastValenceBound) {
+        return invalid("max_valence", std::to_string(*options.max_valence), "at least 6 (the mean valence of a closed mesh is about 6)");
+    }
+    return check_common(options);
+}
+
+}  // namespace vsplit

@@ -1,0 +1,70 @@
+#include "method/prepare.h"
+
+#include <utility>
+
+#include "vsplit/features/face_normals.h"
+#include "vsplit/features/sharp_edges.h"
+#include "vsplit/mrr/progressive_mesh.h"
+
+namespace vsplit {
+namespace {
+
+FaceNormals inherit(const FaceNormals& source, const std::vector<std::uint32_t>& parent) {
+    FaceNormals result;
+    result.normals.reserve(parent.size());
+    result.reliable.reserve(parent.size());
+    for (const std::uint32_t p : parent) {
+        result.normals.push_back(source.normals[p]);
+        result.reliable.push_back(source.reliable[p]);
+    }
+    return result;
+}
+
+/// Planes of the faces and lines of the sharp edges at each vertex ([Date05] 3.1).
+std::vector<Quadric> vertex_quadrics(const TriangleMesh& mesh, const FaceNormals& normals, const std::vector<SharpEdge>& creases,
+                                     const Vec3& centre) {
+    std::vector<Quadric> quadrics(mesh.positions.size());
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        for (const std::uint32_t v : mesh.faces[f]) {
+            quadrics[v] += Quadric::plane(normals.normals[f], mesh.positions[v] - centre);
+        }
+    }
+    for (const SharpEdge& edge : creases) {
+        const Vec3 a = mesh.positions[edge.a] - centre;
+        const Vec3 b = mesh.positions[edge.b] - centre;
+        if (a == b) continue;
+        const Quadric line = Quadric::line((b - a).normalized(), a, edge.weight);
+        quadrics[edge.a] += line;
+        quadrics[edge.b] += line;
+    }
+    return quadrics;
+}
+
+}  // namespace
+
+SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options) {
+    const BoundingBox box = bounding_box(source);
+    FaceNormals normals = inherit(face_normals(source), subdivided.parent);
+    SimplifyInput input;
+    input.centre = (box.min + box.max) / 2;
+    const std::vector<SharpEdge> creases =
+        find_sharp_edges(subdivided.mesh, normals, {options.feature_angle, options.feature_weight});
+    input.quadrics = vertex_quadrics(subdivided.mesh, normals, creases, input.centre);
+    input.mesh = std::move(subdivided.mesh);
+    input.normals = std::move(normals.normals);
+    input.tolerance = options.tolerance;
+    input.faces_min = options.faces_min;
+    return input;
+}
+
+MethodResult describe_resolution(MultiresMesh mrr, std::uint32_t faces) {
+    MethodResult result;
+    const std::size_t level = mrr.level_for(faces);
+    result.faces = mrr.faces_at(level);
+    result.faces_subdivided = mrr.faces_max();
+    result.quality = measure_quality(mesh_at(mrr, level));
+    result.mrr = std::move(mrr);
+    return result;
+}
+
+}  // namespace vsplit

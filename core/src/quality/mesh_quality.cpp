@@ -1,0 +1,74 @@
+#include "vsplit/quality/mesh_quality.h"
+
+#include <algorithm>
+
+#include "vsplit/quality/stretch.h"
+
+namespace vsplit {
+namespace {
+
+std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::uint32_t face) {
+    const Triangle& f = mesh.faces[face];
+    return {mesh.positions[f[0]], mesh.positions[f[1]], mesh.positions[f[2]]};
+}
+
+/// Edges at each vertex of a closed mesh equal its faces; with a boundary there is one more at each of its vertices, so edges
+/// are counted as directed pairs: each face adds its outgoing edge, and a boundary edge lacks the way back.
+std::uint32_t largest_valence(const TriangleMesh& mesh) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+    edges.reserve(mesh.faces.size() * 3);
+    for (const Triangle& f : mesh.faces) {
+        for (int c = 0; c < 3; ++c) edges.emplace_back(std::minmax(f[c], f[(c + 1) % 3]));
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    std::vector<std::uint32_t> valence(mesh.positions.size(), 0);
+    for (const auto& [a, b] : edges) {
+        ++valence[a];
+        ++valence[b];
+    }
+    return valence.empty() ? 0 : *std::max_element(valence.begin(), valence.end());
+}
+
+}  // namespace
+
+Quality measure_quality(const TriangleMesh& mesh) {
+    Quality quality;
+    quality.faces = mesh.face_count();
+    if (mesh.faces.empty()) return quality;
+    std::vector<double> stretches(mesh.faces.size());
+    double sum = 0;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const auto [a, b, c] = corners(mesh, f);
+        const double s = stretch(a, b, c);
+        stretches[f] = s;
+        sum += s;
+        quality.faces_below_02 += s < kStretchFloor ? 1 : 0;
+        quality.size_max = std::max(quality.size_max, face_size(a, b, c));
+        ++quality.stretch_histogram[std::min<std::size_t>(static_cast<std::size_t>(s * 20), 19)];
+    }
+    quality.stretch_mean = sum / static_cast<double>(stretches.size());
+    const auto p01 = stretches.begin() + static_cast<std::ptrdiff_t>(stretches.size() / 100);
+    std::nth_element(stretches.begin(), p01, stretches.end());
+    quality.stretch_p01 = *p01;
+    quality.stretch_min = *std::min_element(stretches.begin(), p01 + 1);
+    quality.valence_max = largest_valence(mesh);
+    return quality;
+}
+
+std::vector<FaceQuality> worst_faces(const TriangleMesh& mesh, std::size_t count) {
+    std::vector<FaceQuality> all(mesh.faces.size());
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const auto [a, b, c] = corners(mesh, f);
+        all[f] = {f, stretch(a, b, c), face_size(a, b, c), (a + b + c) / 3};
+    }
+    const std::size_t kept = std::min(count, all.size());
+    const auto worse = [](const FaceQuality& left, const FaceQuality& right) {
+        return left.stretch != right.stretch ? left.stretch < right.stretch : left.face < right.face;
+    };
+    std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept), all.end(), worse);
+    all.resize(kept);
+    return all;
+}
+
+}  // namespace vsplit

@@ -1,0 +1,140 @@
+#include "simplify/fan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "quality/face_shape.h"
+
+// The loops below have no order-dependent sums and multiply-add never fuses (-ffp-contract=off), so that every clone gives the
+// same bits. Sanitizers run before the loader's choice between clones can be made.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define VSPLIT_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define VSPLIT_VECTOR_CLONES
+#endif
+
+namespace vsplit {
+namespace {
+
+/// A face may turn by at most acos of this: 78 degrees.
+constexpr double kLeastTurnCosine = 0.2;
+
+/// Edge lengths along the ring.
+VSPLIT_VECTOR_CLONES void ring_lengths(std::size_t n, const double* __restrict x, const double* __restrict y,
+                                       const double* __restrict z, double* __restrict length) {
+    for (std::size_t t = 0; t < n; ++t) {
+        const double dx = x[t + 1] - x[t];
+        const double dy = y[t + 1] - y[t];
+        const double dz = z[t + 1] - z[t];
+        length[t] = std::sqrt(dx * dx + dy * dy + dz * dz);
+    }
+}
+
+struct Spokes {
+    double* __restrict x;
+    double* __restrict y;
+    double* __restrict z;
+    double* __restrict length;
+};
+
+/// Vectors from (px, py, pz) to the ring and their lengths; one more than faces.
+VSPLIT_VECTOR_CLONES void spokes_from(double px, double py, double pz, std::size_t count, const double* __restrict x,
+                                      const double* __restrict y, const double* __restrict z, const Spokes& out) {
+    for (std::size_t t = 0; t < count; ++t) {
+        const double dx = x[t] - px;
+        const double dy = y[t] - py;
+        const double dz = z[t] - pz;
+        out.x[t] = dx;
+        out.y[t] = dy;
+        out.z[t] = dz;
+        out.length[t] = std::sqrt(dx * dx + dy * dy + dz * dz);
+    }
+}
+
+struct FanIn {
+    const double* __restrict x;
+    const double* __restrict y;
+    const double* __restrict z;
+    const double* __restrict spoke;
+    const double* __restrict ring;
+    const double* __restrict old_nx;
+    const double* __restrict old_ny;
+    const double* __restrict old_nz;
+};
+
+struct FanOut {
+    double* __restrict stretch;
+    double* __restrict size;
+    double* __restrict nx;
+    double* __restrict ny;
+    double* __restrict nz;
+    double* __restrict turn;
+};
+
+/// Stretch, size, normal and the cosine by which the normal turned, for each face of the fan.
+VSPLIT_VECTOR_CLONES void fan_faces(std::size_t n, const FanIn& in, const FanOut& out) {
+    for (std::size_t t = 0; t < n; ++t) {
+        const double cx = in.y[t] * in.z[t + 1] - in.z[t] * in.y[t + 1];
+        const double cy = in.z[t] * in.x[t + 1] - in.x[t] * in.z[t + 1];
+        const double cz = in.x[t] * in.y[t + 1] - in.y[t] * in.x[t + 1];
+        const double twice_area = std::sqrt(cx * cx + cy * cy + cz * cz);
+        const double a = in.spoke[t];
+        const double b = in.ring[t];
+        const double c = in.spoke[t + 1];
+        const double ab = a > b ? a : b;
+        const double longest = ab > c ? ab : c;
+        const double inverse = 1 / (twice_area > 0 ? twice_area : 1);
+        const double perimeter_longest = (a + b + c) * longest;
+        out.stretch[t] = kSqrt12 * twice_area / (perimeter_longest > 0 ? perimeter_longest : 1);
+        out.size[t] = longest;
+        out.nx[t] = cx * inverse;
+        out.ny[t] = cy * inverse;
+        out.nz[t] = cz * inverse;
+        out.turn[t] = (cx * in.old_nx[t] + cy * in.old_ny[t] + cz * in.old_nz[t]) * inverse;
+    }
+}
+
+}  // namespace
+
+void Fan::reset(std::size_t faces) {
+    size_ = 0;
+    if (vertex.size() >= faces + 1) return;
+    const std::size_t room = 2 * faces + 8;
+    for (auto* column : {&x, &y, &z, &old_nx, &old_ny, &old_nz, &stretch, &size_of, &nx, &ny, &nz, &ring_length_, &spoke_length_, &sx_,
+                         &sy_, &sz_, &turn_}) {
+        column->resize(room);
+    }
+    vertex.resize(room);
+    face_number.resize(room);
+}
+
+void Fan::close() {
+    x[size_] = x[0];
+    y[size_] = y[0];
+    z[size_] = z[0];
+    ring_lengths(size_, x.data(), y.data(), z.data(), ring_length_.data());
+}
+
+Vec3 Fan::centroid() const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t t = 0; t < size_; ++t) sum += Vec3(x[t], y[t], z[t]);
+    return sum / static_cast<double>(size_);
+}
+
+Fan::Shape Fan::shape_at(const Vec3& position) {
+    spokes_from(position.x(), position.y(), position.z(), size_ + 1, x.data(), y.data(), z.data(),
+                {sx_.data(), sy_.data(), sz_.data(), spoke_length_.data()});
+    fan_faces(size_,
+              {sx_.data(), sy_.data(), sz_.data(), spoke_length_.data(), ring_length_.data(), old_nx.data(), old_ny.data(), old_nz.data()},
+              {stretch.data(), size_of.data(), nx.data(), ny.data(), nz.data(), turn_.data()});
+    Shape shape{stretch[0], 0, 0, false};
+    for (std::size_t t = 0; t < size_; ++t) {
+        shape.stretch_min = std::min(shape.stretch_min, stretch[t]);
+        shape.stretch_sum += stretch[t];
+        shape.size_max = std::max(shape.size_max, size_of[t]);
+        shape.folds |= turn_[t] < kLeastTurnCosine;
+    }
+    return shape;
+}
+
+}  // namespace vsplit

@@ -1,0 +1,59 @@
+#include "simplify/half_edge_mesh.h"
+
+namespace vsplit {
+
+HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh)
+    : origin_(mesh.faces.size() * 3),
+      twin_(half_edge_twins(mesh)),
+      outgoing_(mesh.positions.size(), kNone),
+      valence_(mesh.positions.size(), 0),
+      positions_(mesh.positions),
+      live_faces_(mesh.face_count()) {
+    for (HalfEdge h = 0; h < origin_.size(); ++h) {
+        const std::uint32_t v = vsplit::origin(mesh, h);
+        origin_[h] = v;
+        if (outgoing_[v] == kNone) outgoing_[v] = h;
+        ++valence_[v];
+    }
+}
+
+EdgeStar HalfEdgeMesh::star(HalfEdge h) const {
+    EdgeStar s;
+    s.ij = h;
+    s.je = next(h);
+    s.ei = prev(h);
+    s.ji = twin_[h];
+    s.ib = next(s.ji);
+    s.bj = prev(s.ji);
+    s.ej = twin_[s.je];
+    s.ie = twin_[s.ei];
+    s.bi = twin_[s.ib];
+    s.jb = twin_[s.bj];
+    return s;
+}
+
+void HalfEdgeMesh::collapse(const EdgeStar& s, const Vec3& position) {
+    const std::uint32_t i = origin_[s.ij];
+    const std::uint32_t j = origin_[s.ji];
+    const std::uint32_t e = origin_[s.ei];
+    const std::uint32_t b = origin_[s.bj];
+    for (HalfEdge corner = s.jb;; corner = turn(corner)) {
+        origin_[corner] = i;
+        if (prev(corner) == s.ej) break;
+    }
+    pair(s.ej, s.ie);
+    pair(s.bi, s.jb);
+    for (const HalfEdge gone : {s.ij, s.je, s.ei, s.ji, s.ib, s.bj}) twin_[gone] = kNone;
+    outgoing_[i] = s.ie;
+    outgoing_[e] = s.ej;
+    outgoing_[b] = s.bi;
+    outgoing_[j] = kNone;
+    valence_[i] += valence_[j] - 4;
+    valence_[j] = 0;
+    --valence_[e];
+    --valence_[b];
+    positions_[i] = position;
+    live_faces_ -= 2;
+}
+
+}  // namespace vsplit

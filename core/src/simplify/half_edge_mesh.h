@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/half_edges.h"
+#include "vsplit/mesh/triangle_mesh.h"
+
+namespace vsplit {
+
+/// The half-edges around an edge (i, j), named as in VertexSplit: the faces (i, j, e) and (j, i, b) vanish when j collapses into i.
+struct EdgeStar {
+    HalfEdge ij = 0, je = 0, ei = 0;   ///< face (i, j, e)
+    HalfEdge ji = 0, ib = 0, bj = 0;   ///< face (j, i, b)
+    HalfEdge ej = 0, ie = 0;           ///< twins of je and ei
+    HalfEdge bi = 0, jb = 0;           ///< twins of ib and bj
+};
+
+/// Connectivity of a closed 2-manifold that only ever gets coarser: 24 bytes a face, faces and vertices keep their numbers.
+/// Positions live here too, since every walk needs them.
+class HalfEdgeMesh {
+public:
+    /// \pre `mesh` is a closed, consistently oriented 2-manifold.
+    explicit HalfEdgeMesh(const TriangleMesh& mesh);
+
+    [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions_.size()); }
+    [[nodiscard]] HalfEdge half_edge_count() const { return static_cast<HalfEdge>(origin_.size()); }
+    [[nodiscard]] std::uint32_t live_faces() const { return live_faces_; }
+
+    [[nodiscard]] std::uint32_t origin(HalfEdge h) const { return origin_[h]; }
+    [[nodiscard]] std::uint32_t target(HalfEdge h) const { return origin_[next(h)]; }
+    [[nodiscard]] HalfEdge twin(HalfEdge h) const { return twin_[h]; }
+    /// The next half-edge counter-clockwise around the origin of h.
+    [[nodiscard]] HalfEdge turn(HalfEdge h) const { return twin_[prev(h)]; }
+    /// Some half-edge that leaves v.
+    [[nodiscard]] HalfEdge outgoing(std::uint32_t v) const { return outgoing_[v]; }
+    [[nodiscard]] std::uint32_t valence(std::uint32_t v) const { return valence_[v]; }
+    [[nodiscard]] const Vec3& position(std::uint32_t v) const { return positions_[v]; }
+    [[nodiscard]] bool removed(HalfEdge h) const { return twin_[h] == kNone; }
+
+    /// The number an edge goes by: the smaller of its half-edges.
+    [[nodiscard]] HalfEdge edge_of(HalfEdge h) const { return h < twin_[h] ? h : twin_[h]; }
+
+    [[nodiscard]] EdgeStar star(HalfEdge h) const;
+
+    /// Collapses j into i, which moves to `position`. Two faces and one vertex fewer.
+    /// \pre the link condition holds for the edge. O(valence of j).
+    void collapse(const EdgeStar& star, const Vec3& position);
+
+    template <class Visit>
+    void for_each_outgoing(std::uint32_t v, Visit visit) const {
+        const HalfEdge first = outgoing_[v];
+        HalfEdge h = first;
+        do {
+            visit(h);
+            h = turn(h);
+        } while (h != first);
+    }
+
+private:
+    void pair(HalfEdge h, HalfEdge g) {
+        twin_[h] = g;
+        twin_[g] = h;
+    }
+
+    std::vector<std::uint32_t> origin_;
+    std::vector<HalfEdge> twin_;           // kNone in removed faces
+    std::vector<HalfEdge> outgoing_;
+    std::vector<std::uint32_t> valence_;
+    std::vector<Vec3> positions_;
+    std::uint32_t live_faces_ = 0;
+};
+
+}  // namespace vsplit

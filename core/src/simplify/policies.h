@@ -1,0 +1,75 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "simplify/fan.h"
+
+namespace vsplit {
+
+/// The faces around the ends of an edge before its collapse, those that vanish included.
+struct Before {
+    double faces = 0;
+    double stretch_sum = 0;
+    double stretch_min = 0;
+    double weight_sum = 0;   ///< of the policy's face_weight
+};
+
+/// q(F) of the faces after a collapse, [Date05] Eq. 8: min St * mean St, at most 1.
+[[nodiscard]] inline double shape_quality(const Fan::Shape& after, std::size_t faces) {
+    return std::min(1.0, after.stretch_min * after.stretch_sum / static_cast<double>(faces));
+}
+
+// A policy says which collapses are valid beyond topology, fold-over and tolerance, and in which order valid ones go. The
+// priorities of both methods are a factor known before the collapse, `bound`, times shape_quality after it; so an edge whose
+// bound is too small to come next need not be evaluated.
+
+/// Mesh quality improvement ([Date05] 4.2): rho = s * q(after) / q(before), q = min St * mean St, s = faces / sum of sizes.
+struct ImprovePolicy {
+    /// A degenerate face is the most urgent case: above any finite ratio, ordered by size.
+    static constexpr double kUrgent = 1e100;
+    static constexpr double kDegenerate = 1e-30;
+
+    [[nodiscard]] static bool two_phases() { return false; }
+    static void enter_phase(int /*phase*/) {}
+    [[nodiscard]] static double face_weight(double size) { return size; }
+    [[nodiscard]] static bool eligible(const Before& /*before*/) { return true; }
+    [[nodiscard]] static bool admits_valence(std::uint32_t /*valence*/) { return true; }
+    [[nodiscard]] static bool admits(const Fan::Shape& /*after*/) { return true; }
+
+    [[nodiscard]] static double bound(const Before& before) {
+        const double s = before.weight_sum > 0 ? before.faces / before.weight_sum : kUrgent;
+        const double q = before.stretch_min * before.stretch_sum / before.faces;
+        return q > kDegenerate ? s / q : s * kUrgent;
+    }
+};
+
+/// Mesh property control ([Date05] 5.2, Eq. 9): bounds on stretch, size and valence;
+/// rho = 1 / (2 (n - 1)) * sum_before(tau_SZ / Sz) * min St * sum St over the n faces after.
+struct ControlPolicy {
+    double min_stretch = 0;
+    double max_size = std::numeric_limits<double>::infinity();
+    std::uint32_t max_valence = std::numeric_limits<std::uint32_t>::max();
+    double size_unit = 1;          ///< tau_SZ where there is a bound, else any length: it scales all priorities alike
+    bool only_violators = false;   ///< phase one: only collapses that touch a face under min_stretch
+
+    [[nodiscard]] static bool two_phases() { return true; }
+    void enter_phase(int phase) { only_violators = phase == 1; }
+    [[nodiscard]] double face_weight(double size) const { return size > 0 ? size_unit / size : kPointWeight; }
+    [[nodiscard]] bool eligible(const Before& before) const { return !only_violators || before.stretch_min < min_stretch; }
+    [[nodiscard]] bool admits_valence(std::uint32_t valence) const { return valence <= max_valence; }
+    [[nodiscard]] bool admits(const Fan::Shape& after) const {
+        return after.stretch_min >= min_stretch && after.size_max <= max_size;
+    }
+    /// With n faces after, 1 / (2 (n - 1)) * sum St <= n / (2 (n - 1)); n = faces before - 2.
+    [[nodiscard]] static double bound(const Before& before) {
+        const double n = before.faces - 2;
+        return before.weight_sum * n / (2 * (n - 1));
+    }
+
+private:
+    static constexpr double kPointWeight = 1e100;
+};
+
+}  // namespace vsplit

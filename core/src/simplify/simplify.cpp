@@ -1,0 +1,235 @@
+#include "simplify/simplify.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <limits>
+#include <utility>
+
+#include "simplify/collapse_log.h"
+#include "simplify/edge_evaluator.h"
+#include "simplify/edge_queue.h"
+#include "simplify/half_edge_mesh.h"
+
+namespace vsplit {
+namespace {
+
+constexpr std::uint32_t kReportEvery = 1024;  // collapses; some 40 evaluations each
+
+/// What is known of an edge's place in the queue.
+enum class Standing : std::uint8_t {
+    kBound,        // queued by its bound, or not queued
+    kExact,        // queued by its priority
+    kOutOfReach,   // not queued, nor will it be until one of its ends moves
+};
+
+template <class Policy>
+class Simplifier {
+public:
+    Simplifier(SimplifyInput input, const Policy& policy, const ExecutionContext& context)
+        : input_(std::move(input)),
+          policy_(policy),
+          context_(context),
+          mesh_(input_.mesh),
+          queue_(mesh_.half_edge_count()),
+          standing_(mesh_.half_edge_count(), Standing::kBound),
+          visited_(mesh_.vertex_count(), 0),
+          evaluator_(mesh_, state_, policy_, input_) {
+        faces_start_ = mesh_.live_faces();
+        initialise_state();
+        input_.mesh = {};
+    }
+
+    [[nodiscard]] Expected<MultiresMesh> run() {
+        if (policy_.two_phases()) {
+            policy_.enter_phase(1);
+            if (Status done = collapse_all(); !done) return done.error();
+            policy_.enter_phase(2);
+        }
+        if (Status done = collapse_all(); !done) return done.error();
+        context_.report({"simplify", 1, mesh_.live_faces()});
+        return log_.build(mesh_);
+    }
+
+private:
+    void initialise_state() {
+        state_.quadrics = std::move(input_.quadrics);
+        state_.faces.resize(input_.mesh.faces.size());
+        for (std::uint32_t f = 0; f < state_.faces.size(); ++f) {
+            const Triangle& t = input_.mesh.faces[f];
+            const Vec3& a = input_.mesh.positions[t[0]];
+            const Vec3& b = input_.mesh.positions[t[1]];
+            const Vec3& c = input_.mesh.positions[t[2]];
+            state_.faces[f] = {input_.normals[f], stretch(a, b, c), face_size(a, b, c)};
+        }
+        state_.vertices.resize(mesh_.vertex_count());
+        for (std::uint32_t v = 0; v < mesh_.vertex_count(); ++v) update_vertex(v);
+    }
+
+    void update_vertex(std::uint32_t v) {
+        VertexState sums{0, std::numeric_limits<double>::infinity(), 0};
+        mesh_.for_each_outgoing(v, [&](HalfEdge h) {
+            const FaceState& face = state_.faces[face_of(h)];
+            sums.stretch_sum += face.stretch;
+            sums.stretch_min = std::min(sums.stretch_min, face.stretch);
+            sums.weight_sum += policy_.face_weight(face.size);
+        });
+        state_.vertices[v] = sums;
+    }
+
+    /// Fills the queue, then collapses from its top until it is empty or the mesh coarse enough.
+    [[nodiscard]] Status collapse_all() {
+        if (Status queued = evaluate_all_edges(); !queued) return queued;
+        std::uint32_t since_report = 0;
+        while (!queue_.empty() && mesh_.live_faces() >= input_.faces_min + 2) {
+            const EdgeQueue::Entry top = queue_.top();
+            if (standing_[top.edge] == Standing::kBound) {
+                settle(top.edge, top.priority);
+                if (++steps_since_check_ >= 40 * kReportEvery) {
+                    steps_since_check_ = 0;
+                    if (context_.cancelled()) return ExecutionContext::cancelled_error();
+                }
+                continue;
+            }
+            collapse(top.edge);
+            if (++since_report < kReportEvery) continue;
+            since_report = 0;
+            if (context_.cancelled()) return ExecutionContext::cancelled_error();
+            report_simplified();
+        }
+        return Done{};
+    }
+
+    /// Evaluates an edge queued by its bound and queues it by its priority, or not at all.
+    void settle(HalfEdge edge, double bound) {
+        const Evaluation evaluation = evaluator_.evaluate(edge, bound);
+        if (evaluation.verdict == Evaluation::Verdict::kValid) {
+            standing_[edge] = Standing::kExact;
+            queue_.set(edge, evaluation.priority);
+            return;
+        }
+        standing_[edge] = evaluation.verdict == Evaluation::Verdict::kOutOfReach ? Standing::kOutOfReach : Standing::kBound;
+        queue_.erase(edge);
+    }
+
+    /// Evaluates every edge, on all threads the context allows: each depends only on the mesh as it stands.
+    [[nodiscard]] Status evaluate_all_edges() {
+        std::vector<HalfEdge> edges;
+        for (HalfEdge h = 0; h < mesh_.half_edge_count(); ++h) {
+            if (!mesh_.removed(h) && mesh_.edge_of(h) == h) edges.push_back(h);
+        }
+        std::vector<double> priorities(edges.size(), -1);
+        tbb::enumerable_thread_specific<EdgeEvaluator<Policy>> evaluators(
+            [&] { return EdgeEvaluator<Policy>(mesh_, state_, policy_, input_); });
+        context_.report({"evaluate", 0, mesh_.live_faces()});
+        const auto evaluate_range = [&](const tbb::blocked_range<std::size_t>& range) {
+            if (context_.cancelled()) return;
+            EdgeEvaluator<Policy>& evaluator = evaluators.local();
+            for (std::size_t n = range.begin(); n < range.end(); ++n) {
+                const double bound = evaluator.bound(edges[n]);
+                if (bound < 0) continue;
+                const Evaluation evaluation = evaluator.evaluate(edges[n], bound);
+                if (evaluation.verdict == Evaluation::Verdict::kValid) priorities[n] = evaluation.priority;
+                const bool out_of_reach = evaluation.verdict == Evaluation::Verdict::kOutOfReach;
+                standing_[edges[n]] = out_of_reach ? Standing::kOutOfReach : Standing::kExact;
+            }
+        };
+        const int threads = context_.threads() == 0 ? tbb::task_arena::automatic : static_cast<int>(context_.threads());
+        tbb::task_arena arena(threads);
+        arena.execute([&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 1024), evaluate_range); });
+        if (context_.cancelled()) return ExecutionContext::cancelled_error();
+        context_.report({"evaluate", 1, mesh_.live_faces()});
+
+        std::vector<EdgeQueue::Entry> valid;
+        for (std::size_t n = 0; n < edges.size(); ++n) {
+            if (priorities[n] >= 0) valid.push_back({priorities[n], edges[n]});
+        }
+        queue_.assign(std::move(valid));
+        return Done{};
+    }
+
+    void collapse(HalfEdge edge) {
+        const EdgeStar star = mesh_.star(edge);
+        // The fan belongs to the edge evaluated last; this one's is made again, for its place and its faces.
+        const Evaluation evaluation = evaluator_.evaluate(edge, 1);
+        for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
+        log_.record(mesh_, star);
+        const std::uint32_t kept = mesh_.origin(star.ij);
+        state_.quadrics[kept] += state_.quadrics[mesh_.origin(star.ji)];
+        mesh_.collapse(star, evaluation.position);
+        update_faces();
+        update_vertex(kept);
+        const Fan& fan = evaluator_.fan();
+        ring_.assign(fan.vertex.begin(), fan.vertex.begin() + static_cast<std::ptrdiff_t>(fan.size()));
+        for (const std::uint32_t v : ring_) update_vertex(v);
+        requeue_around(kept);
+    }
+
+    void drop(HalfEdge h) {
+        const HalfEdge edge = mesh_.edge_of(h);
+        queue_.erase(edge);
+        standing_[edge] = Standing::kBound;
+    }
+
+    void update_faces() {
+        const Fan& fan = evaluator_.fan();
+        for (std::size_t t = 0; t < fan.size(); ++t) {
+            state_.faces[fan.face_number[t]] = {Vec3(fan.nx[t], fan.ny[t], fan.nz[t]), fan.stretch[t], fan.size_of[t]};
+        }
+    }
+
+    /// Every edge with an end in the ring of k has new faces around it, or a neighbour that moved: its priority is open again.
+    void requeue_around(std::uint32_t k) {
+        ++visit_;
+        for (const std::uint32_t v : ring_) visited_[v] = visit_;
+        for (const std::uint32_t v : ring_) {
+            mesh_.for_each_outgoing(v, [&](HalfEdge h) {
+                const std::uint32_t other = mesh_.target(h);
+                if (visited_[other] == visit_ && other < v) return;  // both ends in the ring: once is enough
+                requeue(mesh_.edge_of(h), other == k);
+            });
+        }
+    }
+
+    void requeue(HalfEdge edge, bool end_moved) {
+        if (standing_[edge] == Standing::kOutOfReach && !end_moved) return;
+        standing_[edge] = Standing::kBound;
+        const double bound = evaluator_.bound(edge);
+        if (bound < 0) return queue_.erase(edge);
+        queue_.set(edge, bound);
+    }
+
+    void report_simplified() const {
+        const double all = faces_start_ - std::min(faces_start_, input_.faces_min);
+        context_.report({"simplify", all > 0 ? (faces_start_ - mesh_.live_faces()) / all : 1, mesh_.live_faces()});
+    }
+
+    SimplifyInput input_;
+    Policy policy_;
+    const ExecutionContext& context_;
+    HalfEdgeMesh mesh_;
+    LocalState state_;
+    EdgeQueue queue_;
+    std::vector<Standing> standing_;
+    CollapseLog log_;
+    std::vector<std::uint32_t> visited_;   // visit_ of the last collapse that had the vertex in its ring
+    std::vector<std::uint32_t> ring_;
+    std::uint32_t visit_ = 0;
+    std::uint32_t steps_since_check_ = 0;
+    std::uint32_t faces_start_ = 0;
+    EdgeEvaluator<Policy> evaluator_;
+};
+
+}  // namespace
+
+Expected<MultiresMesh> simplify(SimplifyInput input, const ImprovePolicy& policy, const ExecutionContext& context) {
+    return Simplifier<ImprovePolicy>(std::move(input), policy, context).run();
+}
+
+Expected<MultiresMesh> simplify(SimplifyInput input, const ControlPolicy& policy, const ExecutionContext& context) {
+    return Simplifier<ControlPolicy>(std::move(input), policy, context).run();
+}
+
+}  // namespace vsplit
