@@ -13,11 +13,13 @@ namespace {
 
 constexpr double kDefaultSizeShare = 0.01;   // of the diagonal
 constexpr double kSizeGrowth = 1.25;
+constexpr std::uint64_t kDefaultFaceBudget = 1'000'000;
 constexpr double kMeanEdgeOverSize = 1.5;    // the mean edge of the default resolution
 constexpr double kEquilateralArea = 0.4330127018922193;  // of edge 1
 
-/// 1 % of the diagonal, or the next larger size that keeps to the face limit.
-double default_subdivision_size(const TriangleMesh& mesh, double diagonal, std::uint64_t face_limit) {
+/// 1 % of the diagonal, or the next larger size that keeps to what an interactive user waits for.
+double default_subdivision_size(const TriangleMesh& mesh, double diagonal, std::uint64_t host_limit) {
+    const std::uint64_t face_limit = std::min(host_limit, kDefaultFaceBudget);
     double size = diagonal * kDefaultSizeShare;
     while (size < diagonal && predict_subdivision(mesh, size, face_limit) > face_limit) size *= kSizeGrowth;
     return size;

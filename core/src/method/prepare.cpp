@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "mesh/spatial_order.h"
 #include "vsplit/features/face_normals.h"
 #include "vsplit/features/sharp_edges.h"
 #include "vsplit/mrr/progressive_mesh.h"
@@ -44,6 +45,7 @@ std::vector<Quadric> vertex_quadrics(const TriangleMesh& mesh, const FaceNormals
 
 SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options) {
     const BoundingBox box = bounding_box(source);
+    order_spatially(subdivided);
     FaceNormals normals = inherit(face_normals(source), subdivided.parent);
     SimplifyInput input;
     input.centre = (box.min + box.max) / 2;

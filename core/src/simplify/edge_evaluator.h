@@ -1,40 +1,16 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "simplify/fan.h"
 #include "simplify/half_edge_mesh.h"
+#include "simplify/local_state.h"
 #include "simplify/placement.h"
 #include "simplify/policies.h"
-#include "simplify/simplify.h"
-#include "quality/face_shape.h"
-#include "vsplit/quality/stretch.h"
 
 namespace vsplit {
-
-/// Shape of a live face and where it looks; the normal of a sliver may be borrowed.
-struct FaceState {
-    Vec3 normal = Vec3::Zero();
-    double stretch = 0;
-    double size = 0;
-};
-
-/// Sums over the faces around a vertex.
-struct VertexState {
-    double stretch_sum = 0;
-    double stretch_min = 0;
-    double weight_sum = 0;   ///< of the policy's face_weight
-};
-
-/// Everything the simplifier knows of the mesh beside its connectivity. Edges are evaluated against it, in parallel if wanted.
-struct LocalState {
-    std::vector<FaceState> faces;
-    std::vector<VertexState> vertices;
-    std::vector<Quadric> quadrics;
-};
 
 /// What the collapse of an edge would be.
 struct Evaluation {
@@ -81,6 +57,7 @@ public:
 
     /// O(valence). Afterwards fan() is the fan of the collapse, shaped for the position returned, when valid.
     [[nodiscard]] Evaluation evaluate(HalfEdge h, double bound) {
+        const Before faces = before(h);
         if (!gather(h)) return {};
         const Quadric quadric = state_.quadrics[mesh_.origin(h)] + state_.quadrics[mesh_.target(h)];
         bool reachable = false;
@@ -88,7 +65,7 @@ public:
             if (quadric.error(place - centre_) > error_limit_) return std::nullopt;
             reachable = true;
             const Fan::Shape shape = fan_.shape_at(place);
-            if (shape.folds || !policy_.admits(shape)) return std::nullopt;
+            if (shape.folds || !policy_.admits(faces, shape)) return std::nullopt;
             return Evaluation{Evaluation::Verdict::kValid, bound * shape_quality(shape, fan_.size()), place};
         };
         const Vec3 centroid = fan_.centroid();
@@ -96,6 +73,8 @@ public:
         if (auto valid = attempt(project_to_minimum(quadric, centroid - centre_) + centre_)) return *valid;
         const Vec3 middle = (mesh_.position(mesh_.origin(h)) + mesh_.position(mesh_.target(h))) * 0.5;
         if (auto valid = attempt(project_to_minimum(quadric, middle - centre_) + centre_)) return *valid;
+        if (auto valid = attempt(mesh_.position(mesh_.origin(h)))) return *valid;
+        if (auto valid = attempt(mesh_.position(mesh_.target(h)))) return *valid;
         const std::optional<Vec3> best = minimum(quadric);
         if (!best) return {};
         if (auto valid = attempt(*best + centre_)) return *valid;

@@ -3,15 +3,15 @@
 namespace vsplit {
 
 HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh)
-    : origin_(mesh.faces.size() * 3),
-      twin_(half_edge_twins(mesh)),
+    : half_edges_(mesh.faces.size() * 3),
       outgoing_(mesh.positions.size(), kNone),
       valence_(mesh.positions.size(), 0),
       positions_(mesh.positions),
       live_faces_(mesh.face_count()) {
-    for (HalfEdge h = 0; h < origin_.size(); ++h) {
+    const std::vector<HalfEdge> twins = half_edge_twins(mesh);
+    for (HalfEdge h = 0; h < twins.size(); ++h) {
         const std::uint32_t v = vsplit::origin(mesh, h);
-        origin_[h] = v;
+        half_edges_[h] = {v, twins[h]};
         if (outgoing_[v] == kNone) outgoing_[v] = h;
         ++valence_[v];
     }
@@ -22,28 +22,28 @@ EdgeStar HalfEdgeMesh::star(HalfEdge h) const {
     s.ij = h;
     s.je = next(h);
     s.ei = prev(h);
-    s.ji = twin_[h];
+    s.ji = twin(h);
     s.ib = next(s.ji);
     s.bj = prev(s.ji);
-    s.ej = twin_[s.je];
-    s.ie = twin_[s.ei];
-    s.bi = twin_[s.ib];
-    s.jb = twin_[s.bj];
+    s.ej = twin(s.je);
+    s.ie = twin(s.ei);
+    s.bi = twin(s.ib);
+    s.jb = twin(s.bj);
     return s;
 }
 
 void HalfEdgeMesh::collapse(const EdgeStar& s, const Vec3& position) {
-    const std::uint32_t i = origin_[s.ij];
-    const std::uint32_t j = origin_[s.ji];
-    const std::uint32_t e = origin_[s.ei];
-    const std::uint32_t b = origin_[s.bj];
+    const std::uint32_t i = origin(s.ij);
+    const std::uint32_t j = origin(s.ji);
+    const std::uint32_t e = origin(s.ei);
+    const std::uint32_t b = origin(s.bj);
     for (HalfEdge corner = s.jb;; corner = turn(corner)) {
-        origin_[corner] = i;
+        half_edges_[corner].origin = i;
         if (prev(corner) == s.ej) break;
     }
     pair(s.ej, s.ie);
     pair(s.bi, s.jb);
-    for (const HalfEdge gone : {s.ij, s.je, s.ei, s.ji, s.ib, s.bj}) twin_[gone] = kNone;
+    for (const HalfEdge gone : {s.ij, s.je, s.ei, s.ji, s.ib, s.bj}) half_edges_[gone].twin = kNone;
     outgoing_[i] = s.ie;
     outgoing_[e] = s.ej;
     outgoing_[b] = s.bi;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -24,22 +25,22 @@ public:
     explicit HalfEdgeMesh(const TriangleMesh& mesh);
 
     [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions_.size()); }
-    [[nodiscard]] HalfEdge half_edge_count() const { return static_cast<HalfEdge>(origin_.size()); }
+    [[nodiscard]] HalfEdge half_edge_count() const { return static_cast<HalfEdge>(half_edges_.size()); }
     [[nodiscard]] std::uint32_t live_faces() const { return live_faces_; }
 
-    [[nodiscard]] std::uint32_t origin(HalfEdge h) const { return origin_[h]; }
-    [[nodiscard]] std::uint32_t target(HalfEdge h) const { return origin_[next(h)]; }
-    [[nodiscard]] HalfEdge twin(HalfEdge h) const { return twin_[h]; }
+    [[nodiscard]] std::uint32_t origin(HalfEdge h) const { return half_edges_[h].origin; }
+    [[nodiscard]] std::uint32_t target(HalfEdge h) const { return half_edges_[next(h)].origin; }
+    [[nodiscard]] HalfEdge twin(HalfEdge h) const { return half_edges_[h].twin; }
     /// The next half-edge counter-clockwise around the origin of h.
-    [[nodiscard]] HalfEdge turn(HalfEdge h) const { return twin_[prev(h)]; }
+    [[nodiscard]] HalfEdge turn(HalfEdge h) const { return half_edges_[prev(h)].twin; }
     /// Some half-edge that leaves v.
     [[nodiscard]] HalfEdge outgoing(std::uint32_t v) const { return outgoing_[v]; }
     [[nodiscard]] std::uint32_t valence(std::uint32_t v) const { return valence_[v]; }
     [[nodiscard]] const Vec3& position(std::uint32_t v) const { return positions_[v]; }
-    [[nodiscard]] bool removed(HalfEdge h) const { return twin_[h] == kNone; }
+    [[nodiscard]] bool removed(HalfEdge h) const { return half_edges_[h].twin == kNone; }
 
     /// The number an edge goes by: the smaller of its half-edges.
-    [[nodiscard]] HalfEdge edge_of(HalfEdge h) const { return h < twin_[h] ? h : twin_[h]; }
+    [[nodiscard]] HalfEdge edge_of(HalfEdge h) const { return std::min(h, twin(h)); }
 
     [[nodiscard]] EdgeStar star(HalfEdge h) const;
 
@@ -59,12 +60,16 @@ public:
 
 private:
     void pair(HalfEdge h, HalfEdge g) {
-        twin_[h] = g;
-        twin_[g] = h;
+        half_edges_[h].twin = g;
+        half_edges_[g].twin = h;
     }
 
-    std::vector<std::uint32_t> origin_;
-    std::vector<HalfEdge> twin_;           // kNone in removed faces
+    /// Side by side, since walks need both: a face's three lie in one or two cache lines.
+    struct Link {
+        std::uint32_t origin = 0;
+        HalfEdge twin = kNone;   // kNone in removed faces
+    };
+    std::vector<Link> half_edges_;
     std::vector<HalfEdge> outgoing_;
     std::vector<std::uint32_t> valence_;
     std::vector<Vec3> positions_;

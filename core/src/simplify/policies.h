@@ -36,7 +36,7 @@ struct ImprovePolicy {
     [[nodiscard]] static double face_weight(double size) { return size; }
     [[nodiscard]] static bool eligible(const Before& /*before*/) { return true; }
     [[nodiscard]] static bool admits_valence(std::uint32_t /*valence*/) { return true; }
-    [[nodiscard]] static bool admits(const Fan::Shape& /*after*/) { return true; }
+    [[nodiscard]] static bool admits(const Before& /*before*/, const Fan::Shape& /*after*/) { return true; }
 
     [[nodiscard]] static double bound(const Before& before) {
         const double s = before.weight_sum > 0 ? before.faces / before.weight_sum : kUrgent;
@@ -59,8 +59,10 @@ struct ControlPolicy {
     [[nodiscard]] double face_weight(double size) const { return size > 0 ? size_unit / size : kPointWeight; }
     [[nodiscard]] bool eligible(const Before& before) const { return !only_violators || before.stretch_min < min_stretch; }
     [[nodiscard]] bool admits_valence(std::uint32_t valence) const { return valence <= max_valence; }
-    [[nodiscard]] bool admits(const Fan::Shape& after) const {
-        return after.stretch_min >= min_stretch && after.size_max <= max_size;
+    /// In phase one a collapse may also leave a violator that is less of one: a strip of slivers mends a step at a time.
+    [[nodiscard]] bool admits(const Before& before, const Fan::Shape& after) const {
+        const bool mends = only_violators && after.stretch_min > before.stretch_min;
+        return (after.stretch_min >= min_stretch || mends) && after.size_max <= max_size;
     }
     /// With n faces after, 1 / (2 (n - 1)) * sum St <= n / (2 (n - 1)); n = faces before - 2.
     [[nodiscard]] static double bound(const Before& before) {

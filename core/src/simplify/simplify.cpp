@@ -5,7 +5,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <limits>
+#include <algorithm>
 #include <utility>
 
 #include "simplify/collapse_log.h"
@@ -16,6 +16,7 @@
 namespace vsplit {
 namespace {
 
+constexpr double kSoon = 0.8;
 constexpr std::uint32_t kReportEvery = 1024;  // collapses; some 40 evaluations each
 
 /// What is known of an edge's place in the queue.
@@ -33,13 +34,15 @@ public:
           policy_(policy),
           context_(context),
           mesh_(input_.mesh),
+          state_(initial_state(input_, mesh_, policy_)),
           queue_(mesh_.half_edge_count()),
           standing_(mesh_.half_edge_count(), Standing::kBound),
           visited_(mesh_.vertex_count(), 0),
+          faces_start_(mesh_.live_faces()),
           evaluator_(mesh_, state_, policy_, input_) {
-        faces_start_ = mesh_.live_faces();
-        initialise_state();
         input_.mesh = {};
+        input_.normals = {};
+        input_.quadrics = {};
     }
 
     [[nodiscard]] Expected<MultiresMesh> run() {
@@ -54,31 +57,6 @@ public:
     }
 
 private:
-    void initialise_state() {
-        state_.quadrics = std::move(input_.quadrics);
-        state_.faces.resize(input_.mesh.faces.size());
-        for (std::uint32_t f = 0; f < state_.faces.size(); ++f) {
-            const Triangle& t = input_.mesh.faces[f];
-            const Vec3& a = input_.mesh.positions[t[0]];
-            const Vec3& b = input_.mesh.positions[t[1]];
-            const Vec3& c = input_.mesh.positions[t[2]];
-            state_.faces[f] = {input_.normals[f], stretch(a, b, c), face_size(a, b, c)};
-        }
-        state_.vertices.resize(mesh_.vertex_count());
-        for (std::uint32_t v = 0; v < mesh_.vertex_count(); ++v) update_vertex(v);
-    }
-
-    void update_vertex(std::uint32_t v) {
-        VertexState sums{0, std::numeric_limits<double>::infinity(), 0};
-        mesh_.for_each_outgoing(v, [&](HalfEdge h) {
-            const FaceState& face = state_.faces[face_of(h)];
-            sums.stretch_sum += face.stretch;
-            sums.stretch_min = std::min(sums.stretch_min, face.stretch);
-            sums.weight_sum += policy_.face_weight(face.size);
-        });
-        state_.vertices[v] = sums;
-    }
-
     /// Fills the queue, then collapses from its top until it is empty or the mesh coarse enough.
     [[nodiscard]] Status collapse_all() {
         if (Status queued = evaluate_all_edges(); !queued) return queued;
@@ -152,6 +130,7 @@ private:
 
     void collapse(HalfEdge edge) {
         const EdgeStar star = mesh_.star(edge);
+        last_priority_ = queue_.top().priority;
         // The fan belongs to the edge evaluated last; this one's is made again, for its place and its faces.
         const Evaluation evaluation = evaluator_.evaluate(edge, 1);
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
@@ -160,10 +139,10 @@ private:
         state_.quadrics[kept] += state_.quadrics[mesh_.origin(star.ji)];
         mesh_.collapse(star, evaluation.position);
         update_faces();
-        update_vertex(kept);
+        update_vertex(state_, mesh_, policy_, kept);
         const Fan& fan = evaluator_.fan();
         ring_.assign(fan.vertex.begin(), fan.vertex.begin() + static_cast<std::ptrdiff_t>(fan.size()));
-        for (const std::uint32_t v : ring_) update_vertex(v);
+        for (const std::uint32_t v : ring_) update_vertex(state_, mesh_, policy_, v);
         requeue_around(kept);
     }
 
@@ -198,6 +177,8 @@ private:
         standing_[edge] = Standing::kBound;
         const double bound = evaluator_.bound(edge);
         if (bound < 0) return queue_.erase(edge);
+        // What will come to the top soon is evaluated at once: that spares it the way up the queue and down again.
+        if (bound > kSoon * last_priority_) return settle(edge, bound);
         queue_.set(edge, bound);
     }
 
@@ -217,6 +198,7 @@ private:
     std::vector<std::uint32_t> visited_;   // visit_ of the last collapse that had the vertex in its ring
     std::vector<std::uint32_t> ring_;
     std::uint32_t visit_ = 0;
+    double last_priority_ = 0;             // of the edge collapsed last
     std::uint32_t steps_since_check_ = 0;
     std::uint32_t faces_start_ = 0;
     EdgeEvaluator<Policy> evaluator_;

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "vsplit/base/error.h"
+
+namespace vsplit {
+
+/// Where in a file: "line 12" (from 1) or "byte 84" (from 0).
+struct Place {
+    std::string_view unit;
+    std::size_t number = 0;
+};
+
+[[nodiscard]] inline Place at_line(std::size_t line) { return {"line", line}; }
+[[nodiscard]] inline Place at_byte(std::size_t byte) { return {"byte", byte}; }
+
+/// "line 12: what".
+[[nodiscard]] Error read_error(Cause cause, Place place, std::string_view what);
+
+/// `text` in quotes, fit for a message whatever a file holds: printable ASCII, at most 40 characters of it.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+/// "found 'x'", or "found the line's end" for an empty word.
+[[nodiscard]] std::string found(std::string_view word);
+
+/// A number as a person would write it, e.g. "0.1", "nan".
+[[nodiscard]] std::string to_text(double value);
+
+}  // namespace vsplit

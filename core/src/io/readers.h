@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "vsplit/base/expected.h"
+#include "vsplit/mesh/triangle_mesh.h"
+
+namespace vsplit {
+
+/// One reader a format. All return the mesh as it stands in the file (STL: each vertex once, however often it is repeated), with
+/// every coordinate valid, every index in range and at most `max_faces` faces; or the first error in the file.
+
+[[nodiscard]] Expected<TriangleMesh> read_stl_binary(std::span<const std::byte> bytes, std::uint32_t max_faces);
+[[nodiscard]] Expected<TriangleMesh> read_stl_ascii(std::span<const std::byte> bytes, std::uint32_t max_faces);
+[[nodiscard]] Expected<TriangleMesh> read_obj(std::span<const std::byte> bytes, std::uint32_t max_faces);
+[[nodiscard]] Expected<TriangleMesh> read_ply(std::span<const std::byte> bytes, std::uint32_t max_faces);
+[[nodiscard]] Expected<TriangleMesh> read_off(std::span<const std::byte> bytes, std::uint32_t max_faces);
+
+}  // namespace vsplit

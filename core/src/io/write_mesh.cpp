@@ -1,0 +1,24 @@
+#include "vsplit/io/write_mesh.h"
+
+#include "base/write_file.h"
+#include "io/writers.h"
+
+namespace vsplit {
+
+std::string write_mesh(const TriangleMesh& mesh, MeshFormat format) {
+    switch (format) {
+        case MeshFormat::kStlBinary: return write_stl_binary(mesh);
+        case MeshFormat::kStlAscii: return write_stl_ascii(mesh);
+        case MeshFormat::kObj: return write_obj(mesh);
+        case MeshFormat::kPlyBinary: return write_ply_binary(mesh);
+        case MeshFormat::kPlyAscii: return write_ply_ascii(mesh);
+        case MeshFormat::kOff: break;
+    }
+    return write_off(mesh);
+}
+
+Status write_mesh_file(const TriangleMesh& mesh, MeshFormat format, const std::filesystem::path& path) {
+    return write_file(path, write_mesh(mesh, format));
+}
+
+}  // namespace vsplit

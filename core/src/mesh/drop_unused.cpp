@@ -1,0 +1,38 @@
+#include "mesh/drop_unused.h"
+
+#include <algorithm>
+
+namespace vsplit {
+namespace {
+
+std::uint32_t drop_collapsed_faces(std::vector<Triangle>& faces) {
+    const auto collapsed = [](const Triangle& face) { return face[0] == face[1] || face[1] == face[2] || face[2] == face[0]; };
+    return static_cast<std::uint32_t>(std::erase_if(faces, collapsed));
+}
+
+}  // namespace
+
+WeldCounts drop_unused(TriangleMesh& mesh) {
+    WeldCounts counts;
+    counts.collapsed_faces = drop_collapsed_faces(mesh.faces);
+    std::vector<std::uint32_t> number(mesh.positions.size(), 0);
+    for (const Triangle& face : mesh.faces) {
+        for (const std::uint32_t vertex : face) number[vertex] = 1;
+    }
+    counts.unused_vertices = static_cast<std::uint32_t>(std::count(number.begin(), number.end(), 0U));
+    if (counts.unused_vertices == 0) return counts;
+
+    std::uint32_t next = 0;
+    for (std::size_t vertex = 0; vertex < number.size(); ++vertex) {
+        if (number[vertex] == 0) continue;
+        mesh.positions[next] = mesh.positions[vertex];
+        number[vertex] = next++;
+    }
+    mesh.positions.resize(next);
+    for (Triangle& face : mesh.faces) {
+        for (std::uint32_t& vertex : face) vertex = number[vertex];
+    }
+    return counts;
+}
+
+}  // namespace vsplit
