@@ -22,7 +22,7 @@ Expected<MappedFile> MappedFile::open(const std::filesystem::path& path) {
 
 Expected<MappedFile> MappedFile::map(int descriptor, std::size_t size, const std::filesystem::path& path) {
     MappedFile file;
-    if (size == 0) return file;   // the system maps no empty file
+    if (size == 0) return file;  // the system maps no empty file
     void* const start = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
     if (start == MAP_FAILED) return file_error("map", path);
     ::madvise(start, size, MADV_SEQUENTIAL);
@@ -47,8 +47,7 @@ Expected<MappedFile> MappedFile::read_all(int descriptor, const std::filesystem:
     return file;
 }
 
-MappedFile::MappedFile(MappedFile&& other) noexcept
-    : bytes_(std::exchange(other.bytes_, {})), copy_(std::move(other.copy_)) {}
+MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})), copy_(std::move(other.copy_)) {}
 
 MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
     std::swap(bytes_, other.bytes_);

@@ -32,7 +32,7 @@ private:
     [[nodiscard]] static Expected<MappedFile> read_all(int descriptor, const std::filesystem::path& path);
 
     std::span<const std::byte> bytes_;
-    std::vector<std::byte> copy_;   // of what cannot be mapped
+    std::vector<std::byte> copy_;  // of what cannot be mapped
 };
 
 }  // namespace vsplit

@@ -42,9 +42,10 @@ std::optional<Error> write_in_place(const fs::path& path, std::string_view bytes
     return {};
 }
 
-std::optional<Error> write_new(const fs::path& path, std::string_view bytes) {
-    constexpr mode_t kMode = 0666;   // the user's umask decides
-    const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kMode));
+/// `path` is what the error names.
+std::optional<Error> write_new(const fs::path& temporary, const fs::path& path, std::string_view bytes) {
+    constexpr mode_t kMode = 0666;  // the user's umask decides
+    const Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kMode));
     if (!file.valid()) return file_error("create", path);
     if (!write_all(file.get(), bytes) || ::fsync(file.get()) != 0) return file_error("write", path);
     return {};
@@ -53,12 +54,12 @@ std::optional<Error> write_new(const fs::path& path, std::string_view bytes) {
 /// The rename itself survives a power cut only when the directory is on the disk.
 void sync_directory(const fs::path& directory) {
     const Descriptor handle(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (handle.valid()) ::fsync(handle.get());   // not all file systems offer it, and the content is whole either way
+    if (handle.valid()) ::fsync(handle.get());  // not all file systems offer it, and the content is whole either way
 }
 
 std::optional<Error> replace(const fs::path& path, std::string_view bytes) {
     const fs::path temporary = temporary_beside(path);
-    std::optional<Error> error = write_new(temporary, bytes);
+    std::optional<Error> error = write_new(temporary, path, bytes);
     if (!error && std::rename(temporary.c_str(), path.c_str()) != 0) error = file_error("write", path);
     if (error) {
         std::remove(temporary.c_str());
@@ -71,7 +72,7 @@ std::optional<Error> replace(const fs::path& path, std::string_view bytes) {
 }  // namespace
 
 Status write_file(const fs::path& path, std::string_view bytes) {
-    std::error_code ignored;   // what does not exist yet is made
+    std::error_code ignored;  // what does not exist yet is made
     const fs::path target = fs::exists(path, ignored) ? fs::canonical(path, ignored) : path;
     const fs::file_status status = fs::status(target, ignored);
     if (fs::is_directory(status)) return file_error("write", path, EISDIR);

@@ -58,11 +58,11 @@ MeshFormat kind_of_ply(std::string_view text) {
         std::string_view rest = lines.line();
         if (next_word(rest) == "format") return next_word(rest) == "ascii" ? MeshFormat::kPlyAscii : MeshFormat::kPlyBinary;
     }
-    return MeshFormat::kPlyAscii;   // the reader will say what is missing
+    return MeshFormat::kPlyAscii;  // the reader will say what is missing
 }
 
 bool is_obj_keyword(std::string_view word) {
-    constexpr std::array<std::string_view, 15> kKeywords = {"v", "vn", "vt", "vp", "f",      "fo",     "o",   "g",
+    constexpr std::array<std::string_view, 15> kKeywords = {"v", "vn", "vt", "vp", "f",      "fo",     "o",  "g",
                                                             "s", "l",  "p",  "mg", "mtllib", "usemtl", "lod"};
     return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end();
 }
@@ -71,11 +71,12 @@ bool is_obj_keyword(std::string_view word) {
 std::optional<MeshFormat> detect_by_word(std::string_view text) {
     TextLines lines(text);
     // Comments as far as one can see: STL has none, OFF seldom more than a line.
-    if (!lines.next_content('#')) return text.find('#') == std::string_view::npos ? std::nullopt : std::optional(MeshFormat::kObj);
+    if (!lines.next_content('#'))
+        return text.find('#') == std::string_view::npos ? std::nullopt : std::optional(MeshFormat::kObj);
     std::string_view rest = lines.line();
     const std::string_view word = next_word(rest);
     if (is_off_keyword(word)) return MeshFormat::kOff;
-    if (has_zeros(text)) return {};   // the header of a binary STL may begin with any word
+    if (has_zeros(text)) return {};  // the header of a binary STL may begin with any word
     if (equals_ignoring_case(word, "solid")) return MeshFormat::kStlAscii;
     if (is_obj_keyword(word)) return MeshFormat::kObj;
     return {};

@@ -57,7 +57,8 @@ Status MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, Place pl
         return read_error(Cause::kMalformedInput, place,
                           "a face has " + std::to_string(corners.size()) + " corners; 3 or more are needed");
     }
-    if (const Status status = check_face_limit(mesh_.faces.size() + corners.size() - 2, max_faces_, place); !status) return status.error();
+    if (const Status status = check_face_limit(mesh_.faces.size() + corners.size() - 2, max_faces_, place); !status)
+        return status.error();
     for (std::size_t corner = 2; corner < corners.size(); ++corner) {
         mesh_.faces.push_back({corners[0], corners[corner - 1], corners[corner]});
     }

@@ -6,26 +6,22 @@
 #include <string>
 
 #include "io/read_error.h"
+#include "mesh/coordinate.h"
 #include "vsplit/base/expected.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
 
-/// Beyond this, rounding eats the digits that areas and volumes are made of.
-inline constexpr double kLargestCoordinate = 1e15;
-
 /// The largest number of vertices: every index fits 32 bits, and one value is left to mean none.
 inline constexpr std::uint64_t kMaxVertices = 0xFFFFFFFE;
-
-/// Whether a mesh may hold this coordinate; false for NaN.
-[[nodiscard]] inline bool is_valid_coordinate(double value) { return value <= kLargestCoordinate && value >= -kLargestCoordinate; }
 
 /// LIMIT_EXCEEDED when `faces` are more than `max_faces`.
 [[nodiscard]] Status check_face_limit(std::uint64_t faces, std::uint32_t max_faces, Place place);
 
 /// TRUNCATED_INPUT when `count` elements (`what`: "vertices", "faces") of at least `least` bytes do not fit into `left` bytes:
 /// what a header says is believed only as far as the file goes.
-[[nodiscard]] Status check_announced(std::string_view what, std::uint64_t count, std::size_t least, std::size_t left, Place place);
+[[nodiscard]] Status check_announced(std::string_view what, std::uint64_t count, std::size_t least, std::size_t left,
+                                     Place place);
 
 /// INVALID_COORDINATE for what is_valid_coordinate refuses; `axis` is 0, 1 or 2.
 [[nodiscard]] Error coordinate_error(std::size_t axis, double value, Place place);

@@ -11,7 +11,7 @@ namespace {
 struct FormatName {
     std::string_view name;
     MeshFormat format;
-    std::string_view extension;   // empty where another format has it
+    std::string_view extension;  // empty where another format has it
 };
 
 constexpr std::array<FormatName, 6> kFormats = {{{"stl", MeshFormat::kStlBinary, ".stl"},
@@ -22,7 +22,7 @@ constexpr std::array<FormatName, 6> kFormats = {{{"stl", MeshFormat::kStlBinary,
                                                  {"off", MeshFormat::kOff, ".off"}}};
 
 /// "a, b, c".
-std::string list_of(std::string_view FormatName::* column) {
+std::string list_of(std::string_view FormatName::*column) {
     std::string list;
     for (const FormatName& format : kFormats) {
         if (!(format.*column).empty()) list.append(list.empty() ? "" : ", ").append(format.*column);
@@ -43,8 +43,8 @@ Expected<MeshFormat> format_by_name(std::string_view name) {
     for (const FormatName& known : kFormats) {
         if (known.name == name) return known.format;
     }
-    return Error{Cause::kInvalidOption, "no mesh format is called '" + std::string(name) + "'; known are " + list_of(&FormatName::name),
-                 "format"};
+    return Error{Cause::kInvalidOption,
+                 "no mesh format is called '" + std::string(name) + "'; known are " + list_of(&FormatName::name), "format"};
 }
 
 Expected<MeshFormat> format_by_extension(std::string_view file_name) {
@@ -56,7 +56,8 @@ Expected<MeshFormat> format_by_extension(std::string_view file_name) {
         if (!extension.empty() && equals_ignoring_case(known.extension, extension)) return known.format;
     }
     return Error{Cause::kUnknownFormat,
-                 "the name '" + std::string(name) + "' does not tell a mesh format; known extensions are " + list_of(&FormatName::extension),
+                 "the name '" + std::string(name) + "' does not tell a mesh format; known extensions are " +
+                     list_of(&FormatName::extension),
                  ""};
 }
 

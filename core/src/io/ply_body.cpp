@@ -11,14 +11,22 @@ namespace {
 
 double load_number(const std::byte* from, PlyType type, std::endian order) {
     switch (type) {
-        case PlyType::kInt8: return load<std::int8_t>(from, order);
-        case PlyType::kUint8: return load<std::uint8_t>(from, order);
-        case PlyType::kInt16: return load<std::int16_t>(from, order);
-        case PlyType::kUint16: return load<std::uint16_t>(from, order);
-        case PlyType::kInt32: return load<std::int32_t>(from, order);
-        case PlyType::kUint32: return load<std::uint32_t>(from, order);
-        case PlyType::kFloat32: return load<float>(from, order);
-        case PlyType::kFloat64: break;
+        case PlyType::kInt8:
+            return load<std::int8_t>(from, order);
+        case PlyType::kUint8:
+            return load<std::uint8_t>(from, order);
+        case PlyType::kInt16:
+            return load<std::int16_t>(from, order);
+        case PlyType::kUint16:
+            return load<std::uint16_t>(from, order);
+        case PlyType::kInt32:
+            return load<std::int32_t>(from, order);
+        case PlyType::kUint32:
+            return load<std::uint32_t>(from, order);
+        case PlyType::kFloat32:
+            return load<float>(from, order);
+        case PlyType::kFloat64:
+            break;
     }
     return load<double>(from, order);
 }

@@ -25,8 +25,8 @@ constexpr std::array<TypeName, 8> kTypes = {{{"int8", "char", PlyType::kInt8},
                                              {"float64", "double", PlyType::kFloat64}}};
 
 std::optional<PlyType> type_by_name(std::string_view name) {
-    const auto* const match =
-        std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeName& type) { return type.name == name || type.old_name == name; });
+    const auto* const match = std::find_if(kTypes.begin(), kTypes.end(),
+                                           [&](const TypeName& type) { return type.name == name || type.old_name == name; });
     if (match == kTypes.end()) return {};
     return match->type;
 }
@@ -42,7 +42,7 @@ public:
             const std::string_view keyword = next_word(rest);
             if (keyword == "end_header") return finish();
             const Status status = parse_line(keyword, rest);
-            if (!status && !lines_.rest().empty()) return status.error();   // else the last line is cut off
+            if (!status && !lines_.rest().empty()) return status.error();  // else the last line is cut off
         }
         return read_error(Cause::kTruncatedInput, at_line(lines_.number()), "the file ends before 'end_header'");
     }
@@ -81,7 +81,7 @@ private:
         const bool repeated = std::any_of(header_.elements.begin(), header_.elements.end(),
                                           [&](const PlyElement& element) { return element.name == name; });
         if (repeated) return malformed("element " + quoted(name) + " is announced twice");
-        constexpr std::size_t kMostElements = 1000;   // each is compared with those before it
+        constexpr std::size_t kMostElements = 1000;  // each is compared with those before it
         if (header_.elements.size() == kMostElements) return malformed("more than 1000 elements are announced");
         header_.elements.push_back({std::string(name), static_cast<std::uint64_t>(*value), {}, lines_.number()});
         return Done{};
@@ -130,13 +130,17 @@ private:
 std::size_t ply_size(PlyType type) {
     switch (type) {
         case PlyType::kInt8:
-        case PlyType::kUint8: return 1;
+        case PlyType::kUint8:
+            return 1;
         case PlyType::kInt16:
-        case PlyType::kUint16: return 2;
+        case PlyType::kUint16:
+            return 2;
         case PlyType::kInt32:
         case PlyType::kUint32:
-        case PlyType::kFloat32: return 4;
-        case PlyType::kFloat64: return 8;
+        case PlyType::kFloat32:
+            return 4;
+        case PlyType::kFloat64:
+            return 8;
     }
     return 8;
 }
@@ -147,7 +151,7 @@ std::size_t PlyElement::least_bytes(PlyEncoding encoding) const {
     std::size_t bytes = 0;
     for (const PlyProperty& property : properties) {
         const std::size_t binary = ply_size(property.is_list ? property.count_type : property.type);
-        bytes += encoding == PlyEncoding::kAscii ? 2 : binary;   // a digit and what divides it from the next
+        bytes += encoding == PlyEncoding::kAscii ? 2 : binary;  // a digit and what divides it from the next
     }
     return bytes;
 }

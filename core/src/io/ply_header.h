@@ -21,7 +21,7 @@ enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, 
 struct PlyProperty {
     std::string name;
     bool is_list = false;
-    PlyType count_type{};   ///< of a list's length
+    PlyType count_type{};  ///< of a list's length
     PlyType type{};
 };
 
@@ -29,7 +29,7 @@ struct PlyElement {
     std::string name;
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
-    std::size_t line = 0;   ///< where the header announces it
+    std::size_t line = 0;  ///< where the header announces it
 
     /// The fewest bytes a row can take, lists being empty.
     [[nodiscard]] std::size_t least_bytes(PlyEncoding encoding) const;

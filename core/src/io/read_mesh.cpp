@@ -12,9 +12,12 @@ namespace {
 /// Formats that a caller need not tell apart, as the bytes do.
 MeshFormat family_of(MeshFormat format) {
     switch (format) {
-        case MeshFormat::kStlAscii: return MeshFormat::kStlBinary;
-        case MeshFormat::kPlyAscii: return MeshFormat::kPlyBinary;
-        default: return format;
+        case MeshFormat::kStlAscii:
+            return MeshFormat::kStlBinary;
+        case MeshFormat::kPlyAscii:
+            return MeshFormat::kPlyBinary;
+        default:
+            return format;
     }
 }
 
@@ -27,8 +30,8 @@ Expected<MeshFormat> choose_format(std::span<const std::byte> bytes, std::option
     if (!detected) return *asked;
     if (asked && family_of(*asked) != family_of(*detected)) {
         return Error{Cause::kMalformedInput,
-                     "byte 0: the bytes are " + std::string(format_name(*detected)) + ", not " + std::string(format_name(*asked)) +
-                         " as asked; leave the format empty to have it told from the bytes",
+                     "byte 0: the bytes are " + std::string(format_name(*detected)) + ", not " +
+                         std::string(format_name(*asked)) + " as asked; leave the format empty to have it told from the bytes",
                      "format"};
     }
     return *detected;
@@ -36,12 +39,17 @@ Expected<MeshFormat> choose_format(std::span<const std::byte> bytes, std::option
 
 Expected<TriangleMesh> read_as(MeshFormat format, std::span<const std::byte> bytes, std::uint32_t max_faces) {
     switch (format) {
-        case MeshFormat::kStlBinary: return read_stl_binary(bytes, max_faces);
-        case MeshFormat::kStlAscii: return read_stl_ascii(bytes, max_faces);
-        case MeshFormat::kObj: return read_obj(bytes, max_faces);
+        case MeshFormat::kStlBinary:
+            return read_stl_binary(bytes, max_faces);
+        case MeshFormat::kStlAscii:
+            return read_stl_ascii(bytes, max_faces);
+        case MeshFormat::kObj:
+            return read_obj(bytes, max_faces);
         case MeshFormat::kPlyBinary:
-        case MeshFormat::kPlyAscii: return read_ply(bytes, max_faces);
-        case MeshFormat::kOff: break;
+        case MeshFormat::kPlyAscii:
+            return read_ply(bytes, max_faces);
+        case MeshFormat::kOff:
+            break;
     }
     return read_off(bytes, max_faces);
 }
@@ -71,7 +79,8 @@ Expected<ReadResult> read_mesh(std::span<const std::byte> bytes, const ReadOptio
     if (!counts) return counts.error();
     if (mesh->faces.empty()) {
         return Error{Cause::kEmptyInput,
-                     "each of the file's " + std::to_string(faces) + " faces has two equal corners after the weld; none is left", ""};
+                     "each of the file's " + std::to_string(faces) + " faces has two equal corners after the weld; none is left",
+                     ""};
     }
     return ReadResult{*std::move(mesh), *format, *counts};
 }

@@ -27,7 +27,7 @@ private:
     /// A face that names a vertex which the file has not given yet.
     struct ForwardReference {
         std::size_t line = 0;
-        std::uint64_t vertex = 0;   // from 1
+        std::uint64_t vertex = 0;  // from 1
     };
 
     /// Goes to the next line, which a backslash at its end continues. `line_` is its text, `number_` where it begins.
@@ -48,7 +48,7 @@ private:
     Status read_line() {
         const std::string_view keyword = next_word(line_);
         if (keyword == "v") return read_vertex();
-        if (keyword == "f" || keyword == "fo") return read_face();   // "fo" is how old files spell it
+        if (keyword == "f" || keyword == "fo") return read_face();  // "fo" is how old files spell it
         const char first = keyword.empty() ? '#' : keyword.front();
         const bool skipped = first == '#' || (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
         if (skipped) return Done{};
@@ -60,7 +60,9 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             const std::string_view word = next_word(line_);
             const std::optional<double> value = parse_number(word);
-            if (!value) return malformed("expected 3 coordinates of a vertex, " + found(word) + " for number " + std::to_string(axis + 1));
+            if (!value)
+                return malformed("expected 3 coordinates of a vertex, " + found(word) + " for number " +
+                                 std::to_string(axis + 1));
             position[axis] = *value;
         }
         return builder_.add_vertex(position, at_line(number_));
@@ -108,12 +110,14 @@ private:
         return Done{};
     }
 
-    [[nodiscard]] Status malformed(std::string_view what) const { return read_error(Cause::kMalformedInput, at_line(number_), what); }
+    [[nodiscard]] Status malformed(std::string_view what) const {
+        return read_error(Cause::kMalformedInput, at_line(number_), what);
+    }
 
     TextLines lines_;
     std::string_view line_;
     std::size_t number_ = 0;
-    std::string joined_;   // a continued line
+    std::string joined_;  // a continued line
     std::vector<std::uint32_t> corners_;
     std::vector<ForwardReference> forward_;
     MeshBuilder builder_;

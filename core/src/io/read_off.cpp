@@ -52,11 +52,12 @@ private:
         vertices_ = static_cast<std::uint64_t>(*vertices);
         faces_ = static_cast<std::uint64_t>(*faces);
 
-        constexpr std::size_t kLeastVertex = 6;   // "0 0 0" and the line's end, which the last line may lack
+        constexpr std::size_t kLeastVertex = 6;  // "0 0 0" and the line's end, which the last line may lack
         constexpr std::size_t kLeastFace = 8;
         const std::size_t left = lines_.rest().size() + 1;
-        if (const Status status = check_announced("vertices", vertices_, kLeastVertex, left, place()); !status) return status;
-        if (const Status status = check_announced("faces", faces_, kLeastFace, left, place()); !status) return status;
+        if (const Status status = check_announced("vertices", vertices_, kLeastVertex, left, place()); !status)
+            return status.error();
+        if (const Status status = check_announced("faces", faces_, kLeastFace, left, place()); !status) return status.error();
         return builder_.reserve(vertices_, faces_, place());
     }
 
@@ -70,7 +71,7 @@ private:
                 if (!value) return unexpected(word, "a coordinate");
                 position[axis] = *value;
             }
-            if (const Status status = builder_.add_vertex(position, place()); !status) return status;
+            if (const Status status = builder_.add_vertex(position, place()); !status) return status.error();
         }
         return Done{};
     }
@@ -78,7 +79,7 @@ private:
     Status read_faces() {
         for (std::uint64_t face = 0; face < faces_; ++face) {
             if (!next_line()) return truncated("face " + std::to_string(face) + " of " + std::to_string(faces_));
-            if (const Status status = read_face(); !status) return status;
+            if (const Status status = read_face(); !status) return status.error();
         }
         return Done{};
     }

@@ -37,7 +37,8 @@ Expected<PositionProperties> find_position(const PlyElement& vertex) {
 /// Where in a face's row its corners are.
 Expected<std::size_t> find_corners(const PlyElement& face) {
     const auto is_corners = [](const PlyProperty& property) {
-        return property.is_list && is_integer(property.type) && (property.name == "vertex_indices" || property.name == "vertex_index");
+        return property.is_list && is_integer(property.type) &&
+               (property.name == "vertex_indices" || property.name == "vertex_index");
     };
     const auto found = std::find_if(face.properties.begin(), face.properties.end(), is_corners);
     if (found != face.properties.end()) return static_cast<std::size_t>(found - face.properties.begin());
@@ -63,7 +64,7 @@ public:
 
 private:
     Status read_element(const PlyElement& element) {
-        if (element.properties.empty()) return Done{};   // its rows are of no bytes
+        if (element.properties.empty()) return Done{};  // its rows are of no bytes
         const std::size_t least = element.least_bytes(header_.encoding);
         const Status fits = check_announced(element.name + " rows", element.count, least, body_.left(), at_line(element.line));
         if (!fits) return fits.error();
@@ -100,7 +101,8 @@ private:
             } else {
                 const Expected<double> value = body_.read(property.type);
                 if (!value) return value.error();
-                if (!is_valid_coordinate(*value)) return coordinate_error(static_cast<std::size_t>(axis - at->at.begin()), *value, place);
+                if (!is_valid_coordinate(*value))
+                    return coordinate_error(static_cast<std::size_t>(axis - at->at.begin()), *value, place);
                 position[axis - at->at.begin()] = *value;
             }
             return number == last ? builder_.add_vertex(position, place) : Done{};
@@ -137,7 +139,7 @@ private:
         const Place place = body_.place();
         const Expected<double> length = body_.read(list.count_type);
         if (!length) return length.error();
-        constexpr double kLongest = 4294967295;   // what the widest type can say
+        constexpr double kLongest = 4294967295;  // what the widest type can say
         if (*length >= 0 && *length <= kLongest) return static_cast<std::uint64_t>(*length);
         return read_error(Cause::kMalformedInput, place, "a list has the length " + to_text(*length));
     }

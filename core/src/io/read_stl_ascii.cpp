@@ -64,7 +64,7 @@ private:
             fail_word("'solid'", first);
             return false;
         }
-        rest_ = {};   // its name
+        rest_ = {};  // its name
         for (;;) {
             const std::string_view found = word();
             if (equals_ignoring_case(found, "endsolid")) break;
@@ -115,7 +115,7 @@ private:
     }
 
     TextLines lines_;
-    std::string_view rest_;   // of the line
+    std::string_view rest_;  // of the line
     std::uint32_t max_faces_;
     VertexSoup soup_;
     std::optional<Error> error_;

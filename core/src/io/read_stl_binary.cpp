@@ -36,7 +36,7 @@ Vec3 load_point(const std::byte* from) {
 bool is_valid(const std::array<Vec3, 3>& corners) {
     bool valid = true;
     for (const Vec3& corner : corners) {
-        for (int axis = 0; axis < 3; ++axis) valid = valid & is_valid_coordinate(corner[axis]);   // no branches
+        for (int axis = 0; axis < 3; ++axis) valid = valid & is_valid_coordinate(corner[axis]);  // no branches
     }
     return valid;
 }
@@ -44,7 +44,7 @@ bool is_valid(const std::array<Vec3, 3>& corners) {
 /// What is wrong with the facet that begins at `byte`.
 Error facet_error(const std::array<Vec3, 3>& corners, std::size_t facet, std::size_t byte) {
     for (const Vec3& corner : corners) {
-        byte += kStlPointBytes;   // the normal is the first point
+        byte += kStlPointBytes;  // the normal is the first point
         const Status status = check_position(corner, at_byte(byte));
         if (status) continue;
         Error error = status.error();

@@ -32,9 +32,7 @@ double out_of_range(std::string_view word) {
 
 }  // namespace
 
-std::string_view as_text(std::span<const std::byte> bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+std::string_view as_text(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 std::string_view without_mark(std::string_view text) {
     constexpr std::string_view kMark = "\xEF\xBB\xBF";

@@ -21,9 +21,8 @@ public:
     }
 
     template <class Number>
-        requires std::is_arithmetic_v<Number>
-    TextWriter& operator<<(Number number) {
-        std::array<char, 32> digits;   // the longest double has 24
+    requires std::is_arithmetic_v<Number> TextWriter& operator<<(Number number) {
+        std::array<char, 32> digits;  // the longest double has 24
         const std::to_chars_result end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
         text_.append(digits.data(), end.ptr);
         return *this;

@@ -36,7 +36,7 @@ private:
     ExactMerger merger_;
     std::array<Vec3, ExactMerger::kBatch> waiting_;
     std::size_t waiting_count_ = 0;
-    std::vector<Vec3> kept_;   // as many as have been numbered, and room for a batch
+    std::vector<Vec3> kept_;  // as many as have been numbered, and room for a batch
     std::vector<Triangle> faces_;
 };
 

@@ -7,12 +7,18 @@ namespace vsplit {
 
 std::string write_mesh(const TriangleMesh& mesh, MeshFormat format) {
     switch (format) {
-        case MeshFormat::kStlBinary: return write_stl_binary(mesh);
-        case MeshFormat::kStlAscii: return write_stl_ascii(mesh);
-        case MeshFormat::kObj: return write_obj(mesh);
-        case MeshFormat::kPlyBinary: return write_ply_binary(mesh);
-        case MeshFormat::kPlyAscii: return write_ply_ascii(mesh);
-        case MeshFormat::kOff: break;
+        case MeshFormat::kStlBinary:
+            return write_stl_binary(mesh);
+        case MeshFormat::kStlAscii:
+            return write_stl_ascii(mesh);
+        case MeshFormat::kObj:
+            return write_obj(mesh);
+        case MeshFormat::kPlyBinary:
+            return write_ply_binary(mesh);
+        case MeshFormat::kPlyAscii:
+            return write_ply_ascii(mesh);
+        case MeshFormat::kOff:
+            break;
     }
     return write_off(mesh);
 }

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -32,7 +33,7 @@ std::array<Vec3f, 4> facet(const TriangleMesh& mesh, const Triangle& face) {
 }  // namespace
 
 std::string write_stl_binary(const TriangleMesh& mesh) {
-    constexpr std::string_view kHeader = "binary STL by vsplit";   // must not begin with "solid"
+    constexpr std::string_view kHeader = "binary STL by vsplit";  // must not begin with "solid"
     std::string bytes(kStlFacetsAt + mesh.faces.size() * kStlFacetBytes, '\0');
     std::copy(kHeader.begin(), kHeader.end(), bytes.begin());
     char* to = store(bytes.data() + kStlHeaderBytes, mesh.face_count());

@@ -1,22 +1,29 @@
 #include "mesh/half_edges.h"
 
-#include <tbb/parallel_sort.h>
-
+#include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace vsplit {
 
 EdgeIndex::EdgeIndex(const TriangleMesh& mesh) {
-    entries_.resize(mesh.faces.size() * 3);
-    for (std::size_t h = 0; h < entries_.size(); ++h) {
-        const auto half_edge = static_cast<HalfEdge>(h);
-        const std::uint64_t from = origin(mesh, half_edge);
-        const std::uint64_t to = origin(mesh, next(half_edge));
-        entries_[h] = {from < to ? from << 32U | to : to << 32U | from, half_edge};
+    // A counting sort by the smaller vertex, which leaves half-edges in order; then each vertex's few edges by the larger one.
+    std::vector<std::uint32_t> first(mesh.positions.size() + 1, 0);
+    const auto half_edges = static_cast<HalfEdge>(mesh.faces.size() * 3);
+    const auto ends = [&](HalfEdge h) { return std::minmax({origin(mesh, h), origin(mesh, next(h))}); };
+    for (HalfEdge h = 0; h < half_edges; ++h) ++first[ends(h).first + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    entries_.resize(half_edges);
+    std::vector<std::uint32_t> slot(first.begin(), first.end() - 1);
+    for (HalfEdge h = 0; h < half_edges; ++h) {
+        const auto [a, b] = ends(h);
+        entries_[slot[a]++] = {std::uint64_t{a} << 32U | b, h};
     }
-    tbb::parallel_sort(entries_.begin(), entries_.end(), [](const Entry& left, const Entry& right) {
-        return std::tie(left.key, left.half_edge) < std::tie(right.key, right.half_edge);
-    });
+    for (std::size_t v = 0; v + 1 < first.size(); ++v) {
+        std::sort(entries_.begin() + first[v], entries_.begin() + first[v + 1], [](const Entry& left, const Entry& right) {
+            return std::tie(left.key, left.half_edge) < std::tie(right.key, right.half_edge);
+        });
+    }
 }
 
 std::vector<HalfEdge> half_edge_twins(const TriangleMesh& mesh) {

@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 [[nodiscard]] inline std::uint32_t origin(const TriangleMesh& mesh, HalfEdge h) { return mesh.faces[h / 3][h % 3]; }
 
 /// Half-edges by undirected edge: those of edge (a, b), a < b, stand together, edges in order of (a, b), half-edges in order of
-/// number. Works for any faces, manifold or not. O(faces log faces).
+/// number. Works for any faces, manifold or not. O(faces log(largest valence)).
 class EdgeIndex {
 public:
     struct Entry {

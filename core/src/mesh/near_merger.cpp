@@ -8,7 +8,7 @@ namespace vsplit {
 NearMerger::NearMerger(double tolerance, std::size_t points) : tolerance_(tolerance) { table_.reserve(points); }
 
 double NearMerger::cell(double coordinate) const {
-    constexpr double kExact = 4503599627370496;   // 2^52
+    constexpr double kExact = 4503599627370496;  // 2^52
     const double scaled = coordinate / tolerance_ / 3;
     // So far out that neighbouring doubles are further apart than the tolerance, every double is a cell of its own.
     return std::abs(scaled) < kExact ? std::floor(scaled) : coordinate;

@@ -12,9 +12,9 @@ namespace vsplit {
 
 /// Numbers points so that one within a distance of a kept one takes its number; of several, the one kept first.
 ///
-/// Kept points lie in a grid of cells three times as wide as the tolerance, so that a point's neighbourhood touches at most eight,
-/// however its bounds are rounded. Kept points are more than the tolerance apart, so a cell holds few of them, whatever the
-/// tolerance.
+/// Kept points lie in a grid of cells three times as wide as the tolerance, so that a point's neighbourhood touches at most
+/// eight, however its bounds are rounded. Kept points are more than the tolerance apart, so a cell holds few of them, whatever
+/// the tolerance.
 class NearMerger {
 public:
     /// \pre 0 < tolerance < infinity. `points` in all will come at most.

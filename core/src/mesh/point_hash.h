@@ -18,8 +18,8 @@ public:
 
     [[nodiscard]] std::uint32_t operator()(const Vec3& point) const {
         std::uint64_t sum = keys_[6];
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto bits = std::bit_cast<std::uint64_t>(point[axis] + 0.0);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto bits = std::bit_cast<std::uint64_t>(point[static_cast<Eigen::Index>(axis)] + 0.0);
             sum += keys_[2 * axis] * (bits & 0xFFFFFFFF) + keys_[2 * axis + 1] * (bits >> 32);
         }
         return static_cast<std::uint32_t>(sum >> 32);

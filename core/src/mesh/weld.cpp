@@ -42,8 +42,8 @@ std::vector<std::uint32_t> merge_near(std::vector<Vec3>& positions, double toler
 
 Expected<WeldCounts> weld(TriangleMesh& mesh, double tolerance) {
     if (!(tolerance >= 0) || std::isinf(tolerance)) {
-        return Error{Cause::kInvalidOption, "weld tolerance is " + std::to_string(tolerance) + "; a finite length of 0 or more is needed",
-                     "weld"};
+        return Error{Cause::kInvalidOption,
+                     "weld tolerance is " + std::to_string(tolerance) + "; a finite length of 0 or more is needed", "weld"};
     }
     const std::size_t before = mesh.positions.size();
     const std::vector<std::uint32_t> numbers =

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/thread_limit.h"
 #include "method/prepare.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/mrr/progressive_mesh.h"
@@ -120,8 +121,10 @@ std::vector<Violation> find_violations(const TriangleMesh& mesh, const ControlOp
     return all;
 }
 
-Expected<MethodResult> control(const TriangleMesh& mesh, const ControlOptions& options, const MethodLimits& limits,
-                               const ExecutionContext& context) {
+namespace {
+
+Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptions& options, const MethodLimits& limits,
+                                    const ExecutionContext& context) {
     const auto start = std::chrono::steady_clock::now();
     if (Status valid = check_options(options); !valid) return valid.error();
     context.report({"inspect", 0, mesh.face_count()});
@@ -135,10 +138,18 @@ Expected<MethodResult> control(const TriangleMesh& mesh, const ControlOptions& o
     Expected<MultiresMesh> mrr = simplify(std::move(input), policy_of(used, bounding_box(mesh).diagonal()), context);
     if (!mrr) return mrr.error();
     MethodResult result = describe_resolution(std::move(*mrr), *used.faces);
+    result.options = used;
     result.violations = find_violations(mesh_at(result.mrr, result.mrr.level_for(result.faces)), used);
     for (Violation& violation : result.violations) violation.reason = reason_for(violation, result.faces == result.mrr.faces_min());
     result.elapsed = std::chrono::steady_clock::now() - start;
     return result;
+}
+
+}  // namespace
+
+Expected<MethodResult> control(const TriangleMesh& mesh, const ControlOptions& options, const MethodLimits& limits,
+                               const ExecutionContext& context) {
+    return with_thread_limit(context, [&] { return control_with(mesh, options, limits, context); });
 }
 
 }  // namespace vsplit

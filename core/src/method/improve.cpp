@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/thread_limit.h"
 #include "method/prepare.h"
 #include "vsplit/mesh/inspect.h"
 
@@ -15,6 +16,8 @@ constexpr double kDefaultSizeShare = 0.01;   // of the diagonal
 constexpr double kSizeGrowth = 1.25;
 constexpr std::uint64_t kDefaultFaceBudget = 1'000'000;
 constexpr double kMeanEdgeOverSize = 1.5;    // the mean edge of the default resolution
+/// Where nothing more can be collapsed within the tolerance shape has suffered; with twice the faces it is near its best.
+constexpr std::uint32_t kFacesOverCoarsest = 2;
 constexpr double kEquilateralArea = 0.4330127018922193;  // of edge 1
 
 /// 1 % of the diagonal, or the next larger size that keeps to what an interactive user waits for.
@@ -47,13 +50,15 @@ ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& o
     return used;
 }
 
-Expected<MethodResult> improve(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
-                               const ExecutionContext& context) {
+namespace {
+
+Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
+                                    const ExecutionContext& context) {
     const auto start = std::chrono::steady_clock::now();
     if (Status valid = check_options(options); !valid) return valid.error();
     context.report({"inspect", 0, mesh.face_count()});
     if (Status closed = require_closed_manifold(inspect(mesh)); !closed) return closed.error();
-    const ImproveOptions used = default_options(mesh, options, limits);
+    ImproveOptions used = default_options(mesh, options, limits);
 
     Expected<SubdividedMesh> subdivided = subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
@@ -61,9 +66,19 @@ Expected<MethodResult> improve(const TriangleMesh& mesh, const ImproveOptions& o
         prepare(mesh, std::move(*subdivided), {*used.feature_angle, *used.feature_weight, *used.tolerance, *used.faces_min});
     Expected<MultiresMesh> mrr = simplify(std::move(input), ImprovePolicy{}, context);
     if (!mrr) return mrr.error();
+    if (!options.faces) used.faces = std::max(*used.faces, kFacesOverCoarsest * mrr->faces_min());
     MethodResult result = describe_resolution(std::move(*mrr), *used.faces);
+    if (!options.faces) used.faces = result.faces;
+    result.options = used;
     result.elapsed = std::chrono::steady_clock::now() - start;
     return result;
+}
+
+}  // namespace
+
+Expected<MethodResult> improve(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
+                               const ExecutionContext& context) {
+    return with_thread_limit(context, [&] { return improve_with(mesh, options, limits, context); });
 }
 
 }  // namespace vsplit

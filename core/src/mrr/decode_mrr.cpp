@@ -21,8 +21,8 @@ public:
     explicit MrrDecoder(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
     Expected<StoredMrr> decode() {
-        for (const auto step :
-             {&MrrDecoder::check_magic, &MrrDecoder::check_header, &MrrDecoder::check_sizes, &MrrDecoder::read_base, &MrrDecoder::read_blocks}) {
+        for (const auto step : {&MrrDecoder::check_magic, &MrrDecoder::check_header, &MrrDecoder::check_sizes,
+                                &MrrDecoder::read_base, &MrrDecoder::read_blocks}) {
             if (const Status status = (this->*step)(); !status) return status.error();
         }
         return std::move(stored_);
@@ -36,7 +36,8 @@ private:
         const std::size_t present = std::min(kMrrMagic.size(), bytes_.size());
         const std::string_view begin(reinterpret_cast<const char*>(bytes_.data()), present);
         if (begin != kMrrMagic.substr(0, present)) {
-            return error_at(Cause::kUnknownFormat, 0, "this is no .vsplit file; one begins with the bytes 89 56 53 50 0d 0a 1a 0a");
+            return error_at(Cause::kUnknownFormat, 0,
+                            "this is no .vsplit file; one begins with the bytes 89 56 53 50 0d 0a 1a 0a");
         }
         if (bytes_.size() >= kMrrHeaderBytes) return Done{};
         return error_at(Cause::kTruncatedInput, bytes_.size(), "the file ends within its header of 40 bytes");
@@ -101,7 +102,8 @@ private:
             if (const Status status = read_block(splits); !status) return status.error();
         }
         if (left() == 0) return Done{};
-        return error_at(Cause::kCorrupt, at_, std::to_string(left()) + " bytes follow the last of " + std::to_string(splits) + " splits");
+        return error_at(Cause::kCorrupt, at_,
+                        std::to_string(left()) + " bytes follow the last of " + std::to_string(splits) + " splits");
     }
 
     Status read_block(std::uint32_t splits) {
@@ -117,7 +119,8 @@ private:
         if (block.first != read || block.count == 0 || block.count > splits - read) {
             return error_at(Cause::kCorrupt, block_at,
                             "a block has splits " + std::to_string(block.first) + " and on, " + std::to_string(block.count) +
-                                " in all, where up to " + std::to_string(splits - read) + " from " + std::to_string(read) + " on are due");
+                                " in all, where up to " + std::to_string(splits - read) + " from " + std::to_string(read) +
+                                " on are due");
         }
         if (payload_bytes > left()) return truncated(splits);
         block.payload.assign(reinterpret_cast<const char*>(bytes_.data() + at_), payload_bytes);
@@ -134,8 +137,9 @@ private:
     }
 
     [[nodiscard]] Status truncated(std::uint32_t splits) const {
-        return error_at(Cause::kTruncatedInput, bytes_.size(),
-                        "the file ends after " + std::to_string(stored_.mrr.splits.size()) + " of " + std::to_string(splits) + " splits");
+        return error_at(
+            Cause::kTruncatedInput, bytes_.size(),
+            "the file ends after " + std::to_string(stored_.mrr.splits.size()) + " of " + std::to_string(splits) + " splits");
     }
 
     /// \pre sizeof(T) <= left().

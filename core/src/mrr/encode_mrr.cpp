@@ -24,9 +24,9 @@ char* store_base(char* to, const StoredMrr& stored) {
 
 void store_header(char* file, const StoredMrr& stored, std::uint32_t base_crc) {
     char* to = std::copy(kMrrMagic.begin(), kMrrMagic.end(), file);
-    for (const std::uint32_t field :
-         {kMrrVersion, stored.mrr.base.vertex_count(), stored.mrr.base.face_count(), static_cast<std::uint32_t>(stored.mrr.splits.size()),
-          stored.faces, static_cast<std::uint32_t>(stored.description.size()), base_crc}) {
+    for (const std::uint32_t field : {kMrrVersion, stored.mrr.base.vertex_count(), stored.mrr.base.face_count(),
+                                      static_cast<std::uint32_t>(stored.mrr.splits.size()), stored.faces,
+                                      static_cast<std::uint32_t>(stored.description.size()), base_crc}) {
         to = store(to, field);
     }
     assert(to == file + kMrrHeaderCrcAt);
@@ -47,8 +47,8 @@ std::string encode_mrr(const StoredMrr& stored) {
     [[maybe_unused]] constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max();
     assert(stored.description.size() <= kLargest && stored.mrr.splits.size() <= kLargest);
     const std::size_t in_block = splits_per_block(RecordEncoding::kFloat64);
-    const std::size_t base_bytes = stored.mrr.base.positions.size() * kMrrVertexBytes + stored.mrr.base.faces.size() * kMrrFaceBytes +
-                                   stored.description.size();
+    const std::size_t base_bytes = stored.mrr.base.positions.size() * kMrrVertexBytes +
+                                   stored.mrr.base.faces.size() * kMrrFaceBytes + stored.description.size();
     std::string bytes(kMrrHeaderBytes + base_bytes, '\0');
     const char* const base_end = store_base(bytes.data() + kMrrHeaderBytes, stored);
     store_header(bytes.data(), stored, crc_between(bytes.data() + kMrrHeaderBytes, base_end));
@@ -60,7 +60,9 @@ std::string encode_mrr(const StoredMrr& stored) {
             encode_block(splits.subspan(first, count), static_cast<std::uint32_t>(first), RecordEncoding::kFloat64);
         const std::size_t at = bytes.size();
         // The first block tells how long all will be.
-        if (first == 0) bytes.reserve(at + (splits.size() / in_block + 1) * kMrrBlockHeaderBytes + block.payload.size() / count * splits.size());
+        if (first == 0)
+            bytes.reserve(at + (splits.size() / in_block + 1) * kMrrBlockHeaderBytes +
+                          block.payload.size() / count * splits.size());
         bytes.resize(at + kMrrBlockHeaderBytes + block.payload.size());
         store_block(bytes.data() + at, block);
     }

@@ -31,11 +31,12 @@ Error corrupt(const RecordBlock& block, const std::string& what) {
 
 Status check_block(const RecordBlock& block) {
     if (block.encoding != RecordEncoding::kFloat64) {
-        return corrupt(block, "encoding " + std::to_string(static_cast<std::uint32_t>(block.encoding)) + " is unknown; 1 (float64) is");
+        return corrupt(block,
+                       "encoding " + std::to_string(static_cast<std::uint32_t>(block.encoding)) + " is unknown; 1 (float64) is");
     }
     if (block.payload.size() > kMaxBlockBytes) {
-        return corrupt(block, std::to_string(block.payload.size()) + " bytes are more than the " + std::to_string(kMaxBlockBytes) +
-                                  " a block may have");
+        return corrupt(block, std::to_string(block.payload.size()) + " bytes are more than the " +
+                                  std::to_string(kMaxBlockBytes) + " a block may have");
     }
     if (block.payload.size() != block.count * kSplitBytes) {
         return corrupt(block, std::to_string(block.count) + " splits take " + std::to_string(block.count * kSplitBytes) +
@@ -61,7 +62,8 @@ std::uint32_t splits_per_block(RecordEncoding encoding) {
 
 RecordBlock encode_block(std::span<const VertexSplit> splits, std::uint32_t first, RecordEncoding encoding) {
     assert(splits.size() <= splits_per_block(encoding));
-    RecordBlock block{first, static_cast<std::uint32_t>(splits.size()), encoding, std::string(splits.size() * kSplitBytes, '\0'), 0};
+    RecordBlock block{first, static_cast<std::uint32_t>(splits.size()), encoding, std::string(splits.size() * kSplitBytes, '\0'),
+                      0};
     char* anchor = block.payload.data();
     char* steps = anchor + splits.size() * kIndexBytes;
     char* kept = steps + splits.size() * kIndexBytes;

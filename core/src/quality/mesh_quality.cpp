@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/half_edges.h"
 #include "vsplit/quality/stretch.h"
 
 namespace vsplit {
@@ -12,21 +13,13 @@ std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::uint32_t face) {
     return {mesh.positions[f[0]], mesh.positions[f[1]], mesh.positions[f[2]]};
 }
 
-/// Edges at each vertex of a closed mesh equal its faces; with a boundary there is one more at each of its vertices, so edges
-/// are counted as directed pairs: each face adds its outgoing edge, and a boundary edge lacks the way back.
+/// Counts undirected edges, which at a boundary are more than faces.
 std::uint32_t largest_valence(const TriangleMesh& mesh) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-    edges.reserve(mesh.faces.size() * 3);
-    for (const Triangle& f : mesh.faces) {
-        for (int c = 0; c < 3; ++c) edges.emplace_back(std::minmax(f[c], f[(c + 1) % 3]));
-    }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     std::vector<std::uint32_t> valence(mesh.positions.size(), 0);
-    for (const auto& [a, b] : edges) {
-        ++valence[a];
-        ++valence[b];
-    }
+    EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* /*last*/) {
+        ++valence[first->a()];
+        ++valence[first->b()];
+    });
     return valence.empty() ? 0 : *std::max_element(valence.begin(), valence.end());
 }
 

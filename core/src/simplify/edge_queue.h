@@ -1,9 +1,10 @@
 #pragma once
 
+#include <tbb/cache_aligned_allocator.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "mesh/half_edges.h"
@@ -22,23 +23,23 @@ public:
     explicit EdgeQueue(std::size_t half_edges) : slot_(half_edges, kNone) {}
 
     /// Replaces the content. O(n).
-    void assign(std::vector<Entry> entries) {
-        for (const Entry& entry : heap_) slot_[entry.edge] = kNone;
-        heap_ = std::move(entries);
-        for (std::size_t i = 0; i < heap_.size(); ++i) slot_[heap_[i].edge] = static_cast<std::uint32_t>(i);
-        for (std::size_t i = heap_.size() / kArity + 1; i-- > 0;) sink(i);
+    void assign(const std::vector<Entry>& entries) {
+        for (std::size_t i = kRoot; i < heap_.size(); ++i) slot_[heap_[i].edge] = kNone;
+        heap_.resize(kRoot);
+        heap_.insert(heap_.end(), entries.begin(), entries.end());
+        for (std::size_t i = kRoot; i < heap_.size(); ++i) slot_[heap_[i].edge] = static_cast<std::uint32_t>(i);
+        for (std::size_t i = heap_.size(); i-- > kRoot;) sink(i);
     }
 
-    [[nodiscard]] bool empty() const { return heap_.empty(); }
-    [[nodiscard]] const Entry& top() const { return heap_.front(); }
+    [[nodiscard]] bool empty() const { return heap_.size() == kRoot; }
+    [[nodiscard]] const Entry& top() const { return heap_[kRoot]; }
 
     /// Inserts the edge or changes its priority.
     void set(HalfEdge edge, double priority) {
-        std::uint32_t i = slot_[edge];
+        const std::uint32_t i = slot_[edge];
         if (i == kNone) {
-            i = static_cast<std::uint32_t>(heap_.size());
             heap_.push_back({priority, edge});
-            return rise(i);
+            return rise(heap_.size() - 1);
         }
         const double before = heap_[i].priority;
         heap_[i].priority = priority;
@@ -54,12 +55,17 @@ public:
         heap_.pop_back();
         if (i == heap_.size()) return;
         place(i, last);
-        rise(i);
-        sink(slot_[last.edge]);
+        if (i > kRoot && before(last, heap_[parent_of(i)])) return rise(i);
+        sink(i);
     }
 
 private:
+    // The root stands at 3, so that the four children of a node, at 4 i - 8 to 4 i - 5, fill one cache line.
     static constexpr std::size_t kArity = 4;
+    static constexpr std::size_t kRoot = 3;
+
+    static std::size_t parent_of(std::size_t i) { return (i + 8) / kArity; }
+    static std::size_t first_child_of(std::size_t i) { return kArity * i - 8; }
 
     static bool before(const Entry& left, const Entry& right) {
         return left.priority != right.priority ? left.priority > right.priority : left.edge < right.edge;
@@ -70,31 +76,30 @@ private:
     }
     void rise(std::size_t i) {
         const Entry moving = heap_[i];
-        while (i > 0) {
-            const std::size_t parent = (i - 1) / kArity;
-            if (!before(moving, heap_[parent])) break;
-            place(i, heap_[parent]);
-            i = parent;
-        }
+        for (; i > kRoot && before(moving, heap_[parent_of(i)]); i = parent_of(i)) place(i, heap_[parent_of(i)]);
         place(i, moving);
     }
     void sink(std::size_t i) {
-        if (i >= heap_.size()) return;
         const Entry moving = heap_[i];
-        for (std::size_t first = i * kArity + 1; first < heap_.size(); first = i * kArity + 1) {
-            std::size_t best = first;
-            const std::size_t end = first + kArity < heap_.size() ? first + kArity : heap_.size();
-            for (std::size_t child = first + 1; child < end; ++child) {
-                if (before(heap_[child], heap_[best])) best = child;
-            }
+        for (std::size_t first = first_child_of(i); first < heap_.size(); first = first_child_of(i)) {
+            const std::size_t best = best_child(first);
             if (!before(heap_[best], moving)) break;
             place(i, heap_[best]);
             i = best;
         }
         place(i, moving);
     }
+    [[nodiscard]] std::size_t best_child(std::size_t first) const {
+        const std::size_t end = std::min(first + kArity, heap_.size());
+        std::size_t best = first;
+        for (std::size_t child = first + 1; child < end; ++child) {
+            if (before(heap_[child], heap_[best])) best = child;
+        }
+        return best;
+    }
 
-    std::vector<Entry> heap_;
+    using Entries = std::vector<Entry, tbb::cache_aligned_allocator<Entry>>;
+    Entries heap_ = Entries(kRoot);     // the first kRoot stand empty
     std::vector<std::uint32_t> slot_;   // of an edge in the heap, or kNone
 };
 

@@ -3,7 +3,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <utility>
@@ -114,9 +113,7 @@ private:
                 standing_[edges[n]] = out_of_reach ? Standing::kOutOfReach : Standing::kExact;
             }
         };
-        const int threads = context_.threads() == 0 ? tbb::task_arena::automatic : static_cast<int>(context_.threads());
-        tbb::task_arena arena(threads);
-        arena.execute([&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 1024), evaluate_range); });
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 1024), evaluate_range);
         if (context_.cancelled()) return ExecutionContext::cancelled_error();
         context_.report({"evaluate", 1, mesh_.live_faces()});
 
@@ -124,7 +121,7 @@ private:
         for (std::size_t n = 0; n < edges.size(); ++n) {
             if (priorities[n] >= 0) valid.push_back({priorities[n], edges[n]});
         }
-        queue_.assign(std::move(valid));
+        queue_.assign(valid);
         return Done{};
     }
 

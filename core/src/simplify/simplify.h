@@ -24,7 +24,7 @@ struct SimplifyInput {
 /// The simplifier of both methods ([Date05] 4.2, Fig. 7): collapses the valid edge of largest priority until none is left or
 /// faces_min is reached. Collapses are exactly in order of priority, ties by edge number, whatever the number of threads.
 ///
-/// Stages "evaluate" and "simplify". CANCELLED. O(n log n) for bounded valence.
+/// Takes as many threads as the task arena it is called in. Stages "evaluate" and "simplify". CANCELLED. O(n log n) for bounded valence.
 [[nodiscard]] Expected<MultiresMesh> simplify(SimplifyInput input, const ImprovePolicy& policy, const ExecutionContext& context);
 [[nodiscard]] Expected<MultiresMesh> simplify(SimplifyInput input, const ControlPolicy& policy, const ExecutionContext& context);
 

@@ -56,26 +56,45 @@ std::array<bool, 3> mark(const Corners& face, double max_edge) {
     return {longer(face.p[0], face.p[1], max_edge), longer(face.p[1], face.p[2], max_edge), longer(face.p[2], face.p[0], max_edge)};
 }
 
-/// Faces one face ends as. Depth-first with an explicit stack: its depth is the logarithm of the edge over max_edge.
-std::uint64_t count_pieces(const Corners& face, double max_edge, std::uint64_t limit) {
-    std::vector<Corners> open{face};
-    std::uint64_t pieces = 0;
-    while (!open.empty() && pieces + open.size() <= limit) {
-        const Corners f = open.back();
-        open.pop_back();
-        const std::array<bool, 3> marked = mark(f, max_edge);
+/// Counts the faces each face ends as. Depth-first with an explicit stack: its depth is the logarithm of the edge over max_edge.
+class PieceCounter {
+public:
+    PieceCounter(double max_edge, std::uint64_t limit) : max_edge_(max_edge), limit_(limit) {}
+
+    /// More than the limit in all.
+    [[nodiscard]] bool over() const { return pieces_ > limit_; }
+    [[nodiscard]] std::uint64_t pieces() const { return pieces_; }
+
+    void add(const Corners& face) {
+        open_.push_back(face);
+        while (!open_.empty() && pieces_ + open_.size() <= limit_) {
+            const Corners f = open_.back();
+            open_.pop_back();
+            cut(f);
+        }
+        pieces_ += open_.size();
+        open_.clear();
+    }
+
+private:
+    void cut(const Corners& f) {
+        const std::array<bool, 3> marked = mark(f, max_edge_);
         if (!marked[0] && !marked[1] && !marked[2]) {
-            ++pieces;
-            continue;
+            ++pieces_;
+            return;
         }
         const std::array<Vec3, 6> points{f.p[0], f.p[1], f.p[2], midpoint(f.p[0], f.p[1]), midpoint(f.p[1], f.p[2]), midpoint(f.p[2], f.p[0])};
         const auto shorter = [&](int a, int b, int c, int d) {
             return (points[a] - points[c]).squaredNorm() <= (points[b] - points[d]).squaredNorm();
         };
-        cut_face(marked, shorter, [&](int a, int b, int c) { open.push_back({{points[a], points[b], points[c]}}); });
+        cut_face(marked, shorter, [&](int a, int b, int c) { open_.push_back({{points[a], points[b], points[c]}}); });
     }
-    return pieces + open.size();
-}
+
+    double max_edge_;
+    std::uint64_t limit_;
+    std::uint64_t pieces_ = 0;
+    std::vector<Corners> open_;
+};
 
 /// One round: cuts every face by its marked edges. `midpoints` holds the vertex on each half-edge's edge, or kNone.
 SubdividedMesh cut_marked(const SubdividedMesh& from, TriangleMesh&& with_midpoints, const std::vector<std::uint32_t>& midpoints,
@@ -105,9 +124,10 @@ template <class Wanted>
 bool subdivide_round(SubdividedMesh& current, Wanted wanted) {
     std::vector<std::uint32_t> midpoints(current.mesh.faces.size() * 3, kNone);
     std::size_t marked = 0;
+    const EdgeIndex edges(current.mesh);
     TriangleMesh points;
     points.positions = std::move(current.mesh.positions);
-    EdgeIndex(current.mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
+    edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
         const Vec3 a = points.positions[first->a()];
         const Vec3 b = points.positions[first->b()];
         if (!wanted(a, b)) return;
@@ -135,30 +155,30 @@ std::string number(double value) {
     return {text.data(), static_cast<std::size_t>(length)};
 }
 
-/// The smallest max_edge, within 5 %, that keeps to the limit.
-double fitting_max_edge(const TriangleMesh& mesh, double too_small, std::uint64_t limit) {
-    double low = too_small;
-    double high = too_small * 2;
-    while (predict_subdivision(mesh, high, limit) > limit) {
-        low = high;
-        high *= 2;
+/// The smallest max_edge, within a fifth, that keeps to the limit. Comes from the coarse side, where counting is cheap.
+double fitting_max_edge(const TriangleMesh& mesh, std::uint64_t limit) {
+    double fits = bounding_box(mesh).diagonal();
+    double too_small = fits / 2;
+    for (; predict_subdivision(mesh, too_small, limit) <= limit; too_small /= 2) fits = too_small;
+    while (fits > 1.2 * too_small) {
+        const double middle = std::sqrt(too_small * fits);
+        (predict_subdivision(mesh, middle, limit) > limit ? too_small : fits) = middle;
     }
-    while (high > 1.05 * low) {
-        const double middle = std::sqrt(low * high);
-        (predict_subdivision(mesh, middle, limit) > limit ? low : high) = middle;
-    }
-    return high;
+    return fits;
 }
 
 }  // namespace
 
 std::uint64_t predict_subdivision(const TriangleMesh& mesh, double max_edge, std::uint64_t limit) {
-    std::uint64_t faces = 0;
+    // No piece has more area than the equilateral triangle of that edge, so far too many need not be counted.
+    constexpr double kEquilateralArea = 0.4330127018922193;
+    if (surface_area(mesh) > 1.01 * kEquilateralArea * max_edge * max_edge * static_cast<double>(limit)) return limit + 1;
+    PieceCounter counter(max_edge, limit);
     for (const Triangle& t : mesh.faces) {
-        faces += count_pieces({{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}}, max_edge, limit - faces);
-        if (faces > limit) return limit + 1;
+        counter.add({{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}});
+        if (counter.over()) return limit + 1;
     }
-    return faces;
+    return counter.pieces();
 }
 
 Expected<SubdividedMesh> subdivide_to_size(const TriangleMesh& mesh, double max_edge, std::uint32_t face_limit,
@@ -174,7 +194,7 @@ Expected<SubdividedMesh> subdivide_to_size(const TriangleMesh& mesh, double max_
     if (predicted > face_limit) {
         return Error{Cause::kLimitExceeded, "subdividing to edges of " + number(max_edge) + " makes more than " +
                      std::to_string(face_limit) + " faces, the limit; a subdivision size of " +
-                     number(fitting_max_edge(mesh, max_edge, face_limit)) + " fits", "subdivision_size"};
+                     number(fitting_max_edge(mesh, face_limit)) + " fits", "subdivision_size"};
     }
     SubdividedMesh current = unchanged(mesh);
     const auto wanted = [&](const Vec3& a, const Vec3& b) { return longer(a, b, max_edge); };

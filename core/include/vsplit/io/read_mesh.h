@@ -14,7 +14,7 @@
 namespace vsplit {
 
 struct ReadOptions {
-    std::optional<MeshFormat> format;          ///< told from the bytes when empty; when given, bytes of another format are an error
+    std::optional<MeshFormat> format{};        ///< told from the bytes when empty; when given, bytes of another format are an error
     double weld = 0;                           ///< length, model units, >= 0; 0 merges exactly equal vertices. See `weld`.
     std::uint32_t max_faces = 50'000'000;      ///< LIMIT_EXCEEDED beyond; checked against headers before memory is taken
 };
@@ -31,7 +31,7 @@ struct ReadResult {
 /// Attributes other than positions and faces are skipped. Nothing is repaired: a wrong byte is an error that says where
 /// (line for text, byte offset for binary), what was read and what was expected.
 /// \return EMPTY_INPUT, UNKNOWN_FORMAT, TRUNCATED_INPUT, MALFORMED_INPUT, INVALID_COORDINATE (NaN, infinite, or beyond 1e15 in
-///         magnitude), INDEX_OUT_OF_RANGE, LIMIT_EXCEEDED, INVALID_OPTION (weld).
+///         magnitude), INDEX_OUT_OF_RANGE, LIMIT_EXCEEDED, UNSUPPORTED (binary OFF), INVALID_OPTION (weld).
 /// Complexity: O(bytes). Memory: the mesh, and 20 bytes a vertex while welding.
 [[nodiscard]] Expected<ReadResult> read_mesh(std::span<const std::byte> bytes, const ReadOptions& options);
 

@@ -19,29 +19,29 @@ inline constexpr std::uint32_t kLeastFaces = 4;       ///< a tetrahedron: no clo
 /// What `improve` may be asked for. Everything is optional; `default_options` says what is taken instead.
 /// All lengths are in model units.
 struct ImproveOptions {
-    std::optional<double> subdivision_size;   ///< sigma_SZ: no edge longer after subdivision; > 0. Default: see docs/method.md
-    std::optional<double> tolerance;          ///< > 0; sqrt of the paper's tau_TL (tau_TL = 2 is tolerance 1.414). Default 0.1 % of the diagonal
-    std::optional<double> max_deviation;      ///< guaranteed two-sided distance; comes with the extended mode (UNSUPPORTED now)
-    std::optional<double> feature_angle;      ///< degrees, 0..180; default 40
-    std::optional<double> feature_weight;     ///< w_e at a right angle; >= 0; default 10
-    std::optional<std::uint32_t> faces;       ///< resolution of the result; default: mean edge 1.5 subdivision_size
-    std::optional<std::uint32_t> faces_min;   ///< simplify down to this many faces, or until no edge is valid; default 4
-    std::optional<Mode> mode;                 ///< default STRICT
+    std::optional<double> subdivision_size{};   ///< sigma_SZ: no edge longer after subdivision; > 0. Default: see docs/method.md
+    std::optional<double> tolerance{};          ///< > 0; sqrt of the paper's tau_TL (tau_TL = 2 is tolerance 1.414). Default 0.1 % of the diagonal
+    std::optional<double> max_deviation{};      ///< guaranteed two-sided distance; comes with the extended mode (UNSUPPORTED now)
+    std::optional<double> feature_angle{};      ///< degrees, 0..180; default 40
+    std::optional<double> feature_weight{};     ///< w_e at a right angle; >= 0; default 10
+    std::optional<std::uint32_t> faces{};       ///< resolution of the result; default: mean edge 1.5 subdivision_size, but at least twice the coarsest
+    std::optional<std::uint32_t> faces_min{};   ///< simplify down to this many faces, or until no edge is valid; default 4
+    std::optional<Mode> mode{};                 ///< default STRICT
 };
 
 /// What `control` may be asked for. Lengths in model units.
 struct ControlOptions {
-    std::optional<std::uint32_t> subdivisions;  ///< one-to-four, 0..12 times; default 1
-    std::optional<double> tolerance;            ///< as in ImproveOptions
-    std::optional<double> max_deviation;        ///< as in ImproveOptions
-    std::optional<double> min_stretch;          ///< tau_ST, 0..1; default 0.2
-    std::optional<double> max_size;             ///< tau_SZ, > 0; default none
-    std::optional<std::uint32_t> max_valence;   ///< tau_VL, >= 6; default none
-    std::optional<double> feature_angle;        ///< as in ImproveOptions
-    std::optional<double> feature_weight;       ///< as in ImproveOptions
-    std::optional<std::uint32_t> faces;         ///< resolution of the result; default: as many as the source has
-    std::optional<std::uint32_t> faces_min;     ///< as in ImproveOptions
-    std::optional<Mode> mode;                   ///< default STRICT
+    std::optional<std::uint32_t> subdivisions{};  ///< one-to-four, 0..12 times; default 1
+    std::optional<double> tolerance{};            ///< as in ImproveOptions
+    std::optional<double> max_deviation{};        ///< as in ImproveOptions
+    std::optional<double> min_stretch{};          ///< tau_ST, 0..1; default 0.2
+    std::optional<double> max_size{};             ///< tau_SZ, > 0; default none
+    std::optional<std::uint32_t> max_valence{};   ///< tau_VL, >= 6; default none
+    std::optional<double> feature_angle{};        ///< as in ImproveOptions
+    std::optional<double> feature_weight{};       ///< as in ImproveOptions
+    std::optional<std::uint32_t> faces{};         ///< resolution of the result; default: as many as the source has
+    std::optional<std::uint32_t> faces_min{};     ///< as in ImproveOptions
+    std::optional<Mode> mode{};                   ///< default STRICT
 };
 
 /// Limits the host sets, not the user of a method.

@@ -3,8 +3,10 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "vsplit/method/method_options.h"
 #include "vsplit/mrr/multires_mesh.h"
 #include "vsplit/quality/mesh_quality.h"
 
@@ -25,6 +27,7 @@ struct Violation {
 /// What both methods return: the MRR and the figures of the resolution that was asked for.
 struct MethodResult {
     MultiresMesh mrr;
+    std::variant<ImproveOptions, ControlOptions> options;  ///< as used, defaults filled in; also says which method it was
     std::uint32_t faces = 0;                 ///< resolution shown: the nearest to the one asked for that exists
     std::uint32_t faces_subdivided = 0;      ///< faces before simplification; equals mrr.faces_max()
     Quality quality;                         ///< at `faces`

@@ -26,7 +26,7 @@ struct RecordBlock {
 };
 
 /// No block's payload is larger.
-inline constexpr std::size_t kMaxBlockBytes = 256 * 1024;
+inline constexpr std::size_t kMaxBlockBytes = std::size_t{256} * 1024;
 
 /// Splits that fit one block of this encoding.
 [[nodiscard]] std::uint32_t splits_per_block(RecordEncoding encoding);
