@@ -65,10 +65,10 @@ struct EdgeSurvey {
     std::uint32_t components = 0;
 };
 
-EdgeSurvey survey_edges(const TriangleMesh& mesh) {
+EdgeSurvey survey_edges(const TriangleMesh& mesh, const EdgeIndex& edges) {
     EdgeSurvey survey;
     DisjointSets parts(mesh.faces.size());
-    EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
+    edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
         ++survey.edges;
         for (const auto* other = first + 1; other != last; ++other) parts.join(face_of(first->half_edge), face_of(other->half_edge));
         if (last - first == 1) survey.boundary.add({first->a(), first->b()});
@@ -82,10 +82,10 @@ EdgeSurvey survey_edges(const TriangleMesh& mesh) {
 }
 
 /// Vertices whose faces form more than one fan around them. Corners joined across shared edges at the same vertex are one fan.
-FindingCounter survey_vertices(const TriangleMesh& mesh) {
+FindingCounter survey_vertices(const TriangleMesh& mesh, const EdgeIndex& edges) {
     DisjointSets fans(mesh.faces.size() * 3);
     const auto corner_at = [&](HalfEdge h, std::uint32_t vertex) { return origin(mesh, h) == vertex ? h : next(h); };
-    EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
+    edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
         for (const auto* other = first + 1; other != last; ++other) {
             fans.join(corner_at(first->half_edge, first->a()), corner_at(other->half_edge, first->a()));
             fans.join(corner_at(first->half_edge, first->b()), corner_at(other->half_edge, first->b()));
@@ -183,8 +183,9 @@ MeshReport inspect(const TriangleMesh& mesh) {
     report.box = bounding_box(mesh);
     report.quality = measure_quality(mesh);
 
-    EdgeSurvey edges = survey_edges(mesh);
-    FindingCounter vertices = survey_vertices(mesh);
+    const EdgeIndex index(mesh);
+    EdgeSurvey edges = survey_edges(mesh, index);
+    FindingCounter vertices = survey_vertices(mesh, index);
     FindingCounter degenerate = survey_degenerate(mesh);
     FindingCounter duplicates = survey_duplicates(mesh);
     report.components = edges.components;

@@ -1,106 +1,59 @@
 #pragma once
 
-#include <tbb/cache_aligned_allocator.h>
-
-#include <algorithm>
+#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "mesh/half_edges.h"
 
 namespace vsplit {
 
-/// A heap of edges by priority, largest first, ties by smaller edge number, that can change and drop any edge.
-/// Four children a node: a node's children share one or two cache lines. Every operation O(log n).
+/// Edges by priority, largest first, ties by smaller edge number: a tournament over edge numbers with 32 players a match.
+///
+/// A collapse changes some forty edges, which are near each other on the surface and so, with a mesh ordered along a curve, in
+/// number: they share a few matches, which are played again when the winner is asked for. A heap would go to forty places all over
+/// memory. Setting is O(1), the winner O(changed matches * log(edges)).
 class EdgeQueue {
 public:
-    struct Entry {
-        double priority = 0;
-        HalfEdge edge = 0;
-    };
+    explicit EdgeQueue(std::size_t half_edges);
 
-    explicit EdgeQueue(std::size_t half_edges) : slot_(half_edges, kNone) {}
-
-    /// Replaces the content. O(n).
-    void assign(const std::vector<Entry>& entries) {
-        for (std::size_t i = kRoot; i < heap_.size(); ++i) slot_[heap_[i].edge] = kNone;
-        heap_.resize(kRoot);
-        heap_.insert(heap_.end(), entries.begin(), entries.end());
-        for (std::size_t i = kRoot; i < heap_.size(); ++i) slot_[heap_[i].edge] = static_cast<std::uint32_t>(i);
-        for (std::size_t i = heap_.size(); i-- > kRoot;) sink(i);
-    }
-
-    [[nodiscard]] bool empty() const { return heap_.size() == kRoot; }
-    [[nodiscard]] const Entry& top() const { return heap_[kRoot]; }
-
-    /// Inserts the edge or changes its priority.
+    /// Inserts the edge or changes its priority. \pre priority >= 0.
     void set(HalfEdge edge, double priority) {
-        const std::uint32_t i = slot_[edge];
-        if (i == kNone) {
-            heap_.push_back({priority, edge});
-            return rise(heap_.size() - 1);
-        }
-        const double before = heap_[i].priority;
-        heap_[i].priority = priority;
-        priority > before ? rise(i) : sink(i);
+        levels_[0].best[edge] = priority;
+        touch(0, edge / kPlayers);
     }
 
     /// Drops the edge if it is there.
     void erase(HalfEdge edge) {
-        const std::uint32_t i = slot_[edge];
-        if (i == kNone) return;
-        slot_[edge] = kNone;
-        const Entry last = heap_.back();
-        heap_.pop_back();
-        if (i == heap_.size()) return;
-        place(i, last);
-        if (i > kRoot && before(last, heap_[parent_of(i)])) return rise(i);
-        sink(i);
+        levels_[0].best[edge] = kAbsent;
+        touch(0, edge / kPlayers);
     }
+
+    /// The edge of largest priority, or kNone when there is none.
+    [[nodiscard]] HalfEdge top();
+
+    [[nodiscard]] double priority(HalfEdge edge) const { return levels_[0].best[edge]; }
 
 private:
-    // The root stands at 3, so that the four children of a node, at 4 i - 8 to 4 i - 5, fill one cache line.
-    static constexpr std::size_t kArity = 4;
-    static constexpr std::size_t kRoot = 3;
+    static constexpr std::size_t kPlayers = 32;
+    static constexpr double kAbsent = -1;
 
-    static std::size_t parent_of(std::size_t i) { return (i + 8) / kArity; }
-    static std::size_t first_child_of(std::size_t i) { return kArity * i - 8; }
+    /// Players of one level and the matches among them whose result is open.
+    struct Level {
+        std::vector<double> best;          // of each player; a multiple of kPlayers, filled up with kAbsent
+        std::vector<std::uint32_t> open;   // matches to play again
+        std::vector<bool> is_open;
+    };
 
-    static bool before(const Entry& left, const Entry& right) {
-        return left.priority != right.priority ? left.priority > right.priority : left.edge < right.edge;
+    void touch(std::size_t level, std::size_t match) {
+        Level& at = levels_[level];
+        if (at.is_open[match]) return;
+        at.is_open[match] = true;
+        at.open.push_back(static_cast<std::uint32_t>(match));
     }
-    void place(std::size_t i, const Entry& entry) {
-        heap_[i] = entry;
-        slot_[entry.edge] = static_cast<std::uint32_t>(i);
-    }
-    void rise(std::size_t i) {
-        const Entry moving = heap_[i];
-        for (; i > kRoot && before(moving, heap_[parent_of(i)]); i = parent_of(i)) place(i, heap_[parent_of(i)]);
-        place(i, moving);
-    }
-    void sink(std::size_t i) {
-        const Entry moving = heap_[i];
-        for (std::size_t first = first_child_of(i); first < heap_.size(); first = first_child_of(i)) {
-            const std::size_t best = best_child(first);
-            if (!before(heap_[best], moving)) break;
-            place(i, heap_[best]);
-            i = best;
-        }
-        place(i, moving);
-    }
-    [[nodiscard]] std::size_t best_child(std::size_t first) const {
-        const std::size_t end = std::min(first + kArity, heap_.size());
-        std::size_t best = first;
-        for (std::size_t child = first + 1; child < end; ++child) {
-            if (before(heap_[child], heap_[best])) best = child;
-        }
-        return best;
-    }
+    void play_open_matches();
 
-    using Entries = std::vector<Entry, tbb::cache_aligned_allocator<Entry>>;
-    Entries heap_ = Entries(kRoot);     // the first kRoot stand empty
-    std::vector<std::uint32_t> slot_;   // of an edge in the heap, or kNone
+    std::vector<Level> levels_;   // 0: edges; the last: one match
 };
 
 }  // namespace vsplit

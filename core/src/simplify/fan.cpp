@@ -1,5 +1,6 @@
 #include "simplify/fan.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -65,13 +66,10 @@ struct FanIn {
 struct FanOut {
     double* __restrict stretch;
     double* __restrict size;
-    double* __restrict nx;
-    double* __restrict ny;
-    double* __restrict nz;
-    double* __restrict turn;
+    double* __restrict folded;   // > 0 where the face turned too far
 };
 
-/// Stretch, size, normal and the cosine by which the normal turned, for each face of the fan.
+/// Stretch and size of each face of the fan, and whether it folds over.
 VSPLIT_VECTOR_CLONES void fan_faces(std::size_t n, const FanIn& in, const FanOut& out) {
     for (std::size_t t = 0; t < n; ++t) {
         const double cx = in.y[t] * in.z[t + 1] - in.z[t] * in.y[t + 1];
@@ -83,58 +81,50 @@ VSPLIT_VECTOR_CLONES void fan_faces(std::size_t n, const FanIn& in, const FanOut
         const double c = in.spoke[t + 1];
         const double ab = a > b ? a : b;
         const double longest = ab > c ? ab : c;
-        const double inverse = 1 / (twice_area > 0 ? twice_area : 1);
-        const double perimeter_longest = (a + b + c) * longest;
-        out.stretch[t] = kSqrt12 * twice_area / (perimeter_longest > 0 ? perimeter_longest : 1);
+        const double denominator = (a + b + c) * longest;
+        out.stretch[t] = kSqrt12 * twice_area / (denominator > 0 ? denominator : 1);
         out.size[t] = longest;
-        out.nx[t] = cx * inverse;
-        out.ny[t] = cy * inverse;
-        out.nz[t] = cz * inverse;
-        out.turn[t] = (cx * in.old_nx[t] + cy * in.old_ny[t] + cz * in.old_nz[t]) * inverse;
+        out.folded[t] = kLeastTurnCosine * twice_area - (cx * in.old_nx[t] + cy * in.old_ny[t] + cz * in.old_nz[t]);
     }
 }
 
 }  // namespace
 
-void Fan::reset(std::size_t faces) {
-    size_ = 0;
-    if (vertex.size() >= faces + 1) return;
-    const std::size_t room = 2 * faces + 8;
-    for (auto* column : {&x, &y, &z, &old_nx, &old_ny, &old_nz, &stretch, &size_of, &nx, &ny, &nz, &ring_length_, &spoke_length_, &sx_,
-                         &sy_, &sz_, &turn_}) {
-        column->resize(room);
-    }
-    vertex.resize(room);
-    face_number.resize(room);
-}
-
 void Fan::close() {
-    x[size_] = x[0];
-    y[size_] = y[0];
-    z[size_] = z[0];
-    ring_lengths(size_, x.data(), y.data(), z.data(), ring_length_.data());
+    x_[size_] = x_[0];
+    y_[size_] = y_[0];
+    z_[size_] = z_[0];
+    ring_lengths(size_, x_.data(), y_.data(), z_.data(), ring_length_.data());
 }
 
 Vec3 Fan::centroid() const {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t t = 0; t < size_; ++t) sum += Vec3(x[t], y[t], z[t]);
+    for (std::size_t t = 0; t < size_; ++t) sum += Vec3(x_[t], y_[t], z_[t]);
     return sum / static_cast<double>(size_);
 }
 
 Fan::Shape Fan::shape_at(const Vec3& position) {
-    spokes_from(position.x(), position.y(), position.z(), size_ + 1, x.data(), y.data(), z.data(),
-                {sx_.data(), sy_.data(), sz_.data(), spoke_length_.data()});
+    spokes_from(position.x(), position.y(), position.z(), size_ + 1, x_.data(), y_.data(), z_.data(),
+                {spoke_x_.data(), spoke_y_.data(), spoke_z_.data(), spoke_length_.data()});
     fan_faces(size_,
-              {sx_.data(), sy_.data(), sz_.data(), spoke_length_.data(), ring_length_.data(), old_nx.data(), old_ny.data(), old_nz.data()},
-              {stretch.data(), size_of.data(), nx.data(), ny.data(), nz.data(), turn_.data()});
-    Shape shape{stretch[0], 0, 0, false};
+              {spoke_x_.data(), spoke_y_.data(), spoke_z_.data(), spoke_length_.data(), ring_length_.data(), old_nx_.data(),
+               old_ny_.data(), old_nz_.data()},
+              {stretch_.data(), face_size_.data(), folded_.data()});
+    Shape shape{stretch_[0], 0, 0, false};
     for (std::size_t t = 0; t < size_; ++t) {
-        shape.stretch_min = std::min(shape.stretch_min, stretch[t]);
-        shape.stretch_sum += stretch[t];
-        shape.size_max = std::max(shape.size_max, size_of[t]);
-        shape.folds |= turn_[t] < kLeastTurnCosine;
+        shape.stretch_min = std::min(shape.stretch_min, stretch_[t]);
+        shape.stretch_sum += stretch_[t];
+        shape.size_max = std::max(shape.size_max, face_size_[t]);
+        shape.folds |= !(folded_[t] <= 0);
     }
+    shape.folds |= !(shape.stretch_min > 0);
     return shape;
+}
+
+Vec3 Fan::normal(std::size_t t) const {
+    const Vec3 left(spoke_x_[t], spoke_y_[t], spoke_z_[t]);
+    const Vec3 right(spoke_x_[t + 1], spoke_y_[t + 1], spoke_z_[t + 1]);
+    return left.cross(right).normalized();
 }
 
 }  // namespace vsplit

@@ -22,8 +22,7 @@ struct Before {
 }
 
 // A policy says which collapses are valid beyond topology, fold-over and tolerance, and in which order valid ones go. The
-// priorities of both methods are a factor known before the collapse, `bound`, times shape_quality after it; so an edge whose
-// bound is too small to come next need not be evaluated.
+// priorities of both methods are a factor known before the collapse times shape_quality after it.
 
 /// Mesh quality improvement ([Date05] 4.2): rho = s * q(after) / q(before), q = min St * mean St, s = faces / sum of sizes.
 struct ImprovePolicy {
@@ -38,7 +37,7 @@ struct ImprovePolicy {
     [[nodiscard]] static bool admits_valence(std::uint32_t /*valence*/) { return true; }
     [[nodiscard]] static bool admits(const Before& /*before*/, const Fan::Shape& /*after*/) { return true; }
 
-    [[nodiscard]] static double bound(const Before& before) {
+    [[nodiscard]] static double factor(const Before& before) {
         const double s = before.weight_sum > 0 ? before.faces / before.weight_sum : kUrgent;
         const double q = before.stretch_min * before.stretch_sum / before.faces;
         return q > kDegenerate ? s / q : s * kUrgent;
@@ -64,8 +63,8 @@ struct ControlPolicy {
         const bool mends = only_violators && after.stretch_min > before.stretch_min;
         return (after.stretch_min >= min_stretch || mends) && after.size_max <= max_size;
     }
-    /// With n faces after, 1 / (2 (n - 1)) * sum St <= n / (2 (n - 1)); n = faces before - 2.
-    [[nodiscard]] static double bound(const Before& before) {
+    /// With n faces after, 1 / (2 (n - 1)) * min St * sum St = n / (2 (n - 1)) * shape quality; n = faces before - 2.
+    [[nodiscard]] static double factor(const Before& before) {
         const double n = before.faces - 2;
         return before.weight_sum * n / (2 * (n - 1));
     }

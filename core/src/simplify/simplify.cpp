@@ -15,15 +15,7 @@
 namespace vsplit {
 namespace {
 
-constexpr double kSoon = 0.8;
 constexpr std::uint32_t kReportEvery = 1024;  // collapses; some 40 evaluations each
-
-/// What is known of an edge's place in the queue.
-enum class Standing : std::uint8_t {
-    kBound,        // queued by its bound, or not queued
-    kExact,        // queued by its priority
-    kOutOfReach,   // not queued, nor will it be until one of its ends moves
-};
 
 template <class Policy>
 class Simplifier {
@@ -33,9 +25,9 @@ public:
           policy_(policy),
           context_(context),
           mesh_(input_.mesh),
-          state_(initial_state(input_, mesh_, policy_)),
+          state_(initial_state(input_)),
           queue_(mesh_.half_edge_count()),
-          standing_(mesh_.half_edge_count(), Standing::kBound),
+          out_of_reach_(mesh_.half_edge_count(), 0),
           visited_(mesh_.vertex_count(), 0),
           faces_start_(mesh_.live_faces()),
           evaluator_(mesh_, state_, policy_, input_) {
@@ -56,21 +48,14 @@ public:
     }
 
 private:
-    /// Fills the queue, then collapses from its top until it is empty or the mesh coarse enough.
+    /// Fills the queue, then collapses from its top until it is empty or the mesh is coarse enough.
     [[nodiscard]] Status collapse_all() {
         if (Status queued = evaluate_all_edges(); !queued) return queued;
         std::uint32_t since_report = 0;
-        while (!queue_.empty() && mesh_.live_faces() >= input_.faces_min + 2) {
-            const EdgeQueue::Entry top = queue_.top();
-            if (standing_[top.edge] == Standing::kBound) {
-                settle(top.edge, top.priority);
-                if (++steps_since_check_ >= 40 * kReportEvery) {
-                    steps_since_check_ = 0;
-                    if (context_.cancelled()) return ExecutionContext::cancelled_error();
-                }
-                continue;
-            }
-            collapse(top.edge);
+        while (mesh_.live_faces() >= input_.faces_min + 2) {
+            const HalfEdge edge = queue_.top();
+            if (edge == kNone) break;
+            collapse(edge);
             if (++since_report < kReportEvery) continue;
             since_report = 0;
             if (context_.cancelled()) return ExecutionContext::cancelled_error();
@@ -79,16 +64,11 @@ private:
         return Done{};
     }
 
-    /// Evaluates an edge queued by its bound and queues it by its priority, or not at all.
-    void settle(HalfEdge edge, double bound) {
-        const Evaluation evaluation = evaluator_.evaluate(edge, bound);
-        if (evaluation.verdict == Evaluation::Verdict::kValid) {
-            standing_[edge] = Standing::kExact;
-            queue_.set(edge, evaluation.priority);
-            return;
-        }
-        standing_[edge] = evaluation.verdict == Evaluation::Verdict::kOutOfReach ? Standing::kOutOfReach : Standing::kBound;
-        queue_.erase(edge);
+    /// Queues an edge by its priority, or not at all.
+    void settle(HalfEdge edge) {
+        const Evaluation evaluation = evaluator_.evaluate(edge);
+        out_of_reach_[edge] = evaluation.verdict == Evaluation::Verdict::kOutOfReach ? 1 : 0;
+        evaluation.verdict == Evaluation::Verdict::kValid ? queue_.set(edge, evaluation.priority) : queue_.erase(edge);
     }
 
     /// Evaluates every edge, on all threads the context allows: each depends only on the mesh as it stands.
@@ -105,54 +85,46 @@ private:
             if (context_.cancelled()) return;
             EdgeEvaluator<Policy>& evaluator = evaluators.local();
             for (std::size_t n = range.begin(); n < range.end(); ++n) {
-                const double bound = evaluator.bound(edges[n]);
-                if (bound < 0) continue;
-                const Evaluation evaluation = evaluator.evaluate(edges[n], bound);
+                const Evaluation evaluation = evaluator.evaluate(edges[n]);
                 if (evaluation.verdict == Evaluation::Verdict::kValid) priorities[n] = evaluation.priority;
-                const bool out_of_reach = evaluation.verdict == Evaluation::Verdict::kOutOfReach;
-                standing_[edges[n]] = out_of_reach ? Standing::kOutOfReach : Standing::kExact;
+                out_of_reach_[edges[n]] = evaluation.verdict == Evaluation::Verdict::kOutOfReach ? 1 : 0;
             }
         };
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 1024), evaluate_range);
         if (context_.cancelled()) return ExecutionContext::cancelled_error();
         context_.report({"evaluate", 1, mesh_.live_faces()});
 
-        std::vector<EdgeQueue::Entry> valid;
         for (std::size_t n = 0; n < edges.size(); ++n) {
-            if (priorities[n] >= 0) valid.push_back({priorities[n], edges[n]});
+            if (priorities[n] >= 0) queue_.set(edges[n], priorities[n]);
         }
-        queue_.assign(valid);
         return Done{};
     }
 
     void collapse(HalfEdge edge) {
         const EdgeStar star = mesh_.star(edge);
-        last_priority_ = queue_.top().priority;
         // The fan belongs to the edge evaluated last; this one's is made again, for its place and its faces.
-        const Evaluation evaluation = evaluator_.evaluate(edge, 1);
+        const Evaluation evaluation = evaluator_.evaluate(edge);
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
         log_.record(mesh_, star);
         const std::uint32_t kept = mesh_.origin(star.ij);
         state_.quadrics[kept] += state_.quadrics[mesh_.origin(star.ji)];
         mesh_.collapse(star, evaluation.position);
         update_faces();
-        update_vertex(state_, mesh_, policy_, kept);
-        const Fan& fan = evaluator_.fan();
-        ring_.assign(fan.vertex.begin(), fan.vertex.begin() + static_cast<std::ptrdiff_t>(fan.size()));
-        for (const std::uint32_t v : ring_) update_vertex(state_, mesh_, policy_, v);
         requeue_around(kept);
     }
 
     void drop(HalfEdge h) {
         const HalfEdge edge = mesh_.edge_of(h);
         queue_.erase(edge);
-        standing_[edge] = Standing::kBound;
+        out_of_reach_[edge] = 0;
     }
 
     void update_faces() {
         const Fan& fan = evaluator_.fan();
+        ring_.clear();
         for (std::size_t t = 0; t < fan.size(); ++t) {
-            state_.faces[fan.face_number[t]] = {Vec3(fan.nx[t], fan.ny[t], fan.nz[t]), fan.stretch[t], fan.size_of[t]};
+            ring_.push_back(fan.vertex(t));
+            state_.faces[fan.face(t)] = {fan.normal(t), fan.stretch(t), fan.face_size(t)};
         }
     }
 
@@ -164,19 +136,11 @@ private:
             mesh_.for_each_outgoing(v, [&](HalfEdge h) {
                 const std::uint32_t other = mesh_.target(h);
                 if (visited_[other] == visit_ && other < v) return;  // both ends in the ring: once is enough
-                requeue(mesh_.edge_of(h), other == k);
+                const HalfEdge edge = mesh_.edge_of(h);
+                // Neither quadric changed unless an end is k: no place came within reach.
+                if (out_of_reach_[edge] == 0 || other == k) settle(edge);
             });
         }
-    }
-
-    void requeue(HalfEdge edge, bool end_moved) {
-        if (standing_[edge] == Standing::kOutOfReach && !end_moved) return;
-        standing_[edge] = Standing::kBound;
-        const double bound = evaluator_.bound(edge);
-        if (bound < 0) return queue_.erase(edge);
-        // What will come to the top soon is evaluated at once: that spares it the way up the queue and down again.
-        if (bound > kSoon * last_priority_) return settle(edge, bound);
-        queue_.set(edge, bound);
     }
 
     void report_simplified() const {
@@ -190,13 +154,11 @@ private:
     HalfEdgeMesh mesh_;
     LocalState state_;
     EdgeQueue queue_;
-    std::vector<Standing> standing_;
+    std::vector<std::uint8_t> out_of_reach_;   // of an edge: not queued, nor will it be until one of its ends moves
     CollapseLog log_;
     std::vector<std::uint32_t> visited_;   // visit_ of the last collapse that had the vertex in its ring
     std::vector<std::uint32_t> ring_;
     std::uint32_t visit_ = 0;
-    double last_priority_ = 0;             // of the edge collapsed last
-    std::uint32_t steps_since_check_ = 0;
     std::uint32_t faces_start_ = 0;
     EdgeEvaluator<Policy> evaluator_;
 };

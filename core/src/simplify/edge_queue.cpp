@@ -1,0 +1,61 @@
+#include "simplify/edge_queue.h"
+
+#include <algorithm>
+
+namespace vsplit {
+namespace {
+
+constexpr std::size_t kLanes = 4;
+
+/// Lane by lane, so that the compiler can keep the lanes in vectors.
+template <std::size_t Players>
+double largest(const double* players) {
+    std::array<double, kLanes> best{};
+    std::copy_n(players, kLanes, best.begin());
+    for (std::size_t i = kLanes; i < Players; i += kLanes) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            best[lane] = players[i + lane] > best[lane] ? players[i + lane] : best[lane];
+        }
+    }
+    return *std::max_element(best.begin(), best.end());
+}
+
+}  // namespace
+
+EdgeQueue::EdgeQueue(std::size_t half_edges) {
+    for (std::size_t players = half_edges;;) {
+        const std::size_t matches = std::max<std::size_t>(1, (players + kPlayers - 1) / kPlayers);
+        levels_.push_back({std::vector<double>(matches * kPlayers, kAbsent), {}, std::vector<bool>(matches, false)});
+        if (matches == 1) break;
+        players = matches;
+    }
+}
+
+void EdgeQueue::play_open_matches() {
+    for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
+        Level& at = levels_[level];
+        for (const std::uint32_t match : at.open) {
+            at.is_open[match] = false;
+            const double winner = largest<kPlayers>(&at.best[match * kPlayers]);
+            double& known = levels_[level + 1].best[match];
+            if (known == winner) continue;
+            known = winner;
+            touch(level + 1, match / kPlayers);
+        }
+        at.open.clear();
+    }
+}
+
+HalfEdge EdgeQueue::top() {
+    play_open_matches();
+    std::size_t match = 0;
+    for (std::size_t level = levels_.size(); level-- > 0;) {
+        const double* players = &levels_[level].best[match * kPlayers];
+        const auto* winner = std::max_element(players, players + kPlayers);  // the first among equals
+        if (*winner < 0) return kNone;
+        match = match * kPlayers + static_cast<std::size_t>(winner - players);
+    }
+    return static_cast<HalfEdge>(match);
+}
+
+}  // namespace vsplit

@@ -1,0 +1,21 @@
+#include "simplify/local_state.h"
+
+#include "vsplit/quality/stretch.h"
+
+namespace vsplit {
+
+LocalState initial_state(const SimplifyInput& input) {
+    LocalState state;
+    state.quadrics = input.quadrics;
+    state.faces.resize(input.mesh.faces.size());
+    for (std::uint32_t f = 0; f < input.mesh.face_count(); ++f) {
+        const Triangle& t = input.mesh.faces[f];
+        const Vec3& a = input.mesh.positions[t[0]];
+        const Vec3& b = input.mesh.positions[t[1]];
+        const Vec3& c = input.mesh.positions[t[2]];
+        state.faces[f] = {input.normals[f], stretch(a, b, c), face_size(a, b, c)};
+    }
+    return state;
+}
+
+}  // namespace vsplit
