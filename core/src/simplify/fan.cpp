@@ -121,10 +121,10 @@ Fan::Shape Fan::shape_at(const Vec3& position) {
     return shape;
 }
 
-Vec3 Fan::normal(std::size_t t) const {
+Eigen::Vector3f Fan::normal(std::size_t t) const {
     const Vec3 left(spoke_x_[t], spoke_y_[t], spoke_z_[t]);
     const Vec3 right(spoke_x_[t + 1], spoke_y_[t + 1], spoke_z_[t + 1]);
-    return left.cross(right).normalized();
+    return left.cross(right).normalized().cast<float>();
 }
 
 }  // namespace vsplit

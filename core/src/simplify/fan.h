@@ -19,7 +19,7 @@ public:
 
     /// Adds ring vertex `v` at `position` and the face from it to the next one, which looked along `normal` before.
     /// \pre size() < kCapacity.
-    void add(std::uint32_t v, const Vec3& position, std::uint32_t face, const Vec3& normal) {
+    void add(std::uint32_t v, const Vec3& position, std::uint32_t face, const Eigen::Vector3f& normal) {
         vertex_[size_] = v;
         face_[size_] = face;
         x_[size_] = position.x();
@@ -52,7 +52,7 @@ public:
     [[nodiscard]] double stretch(std::size_t t) const { return stretch_[t]; }
     [[nodiscard]] double face_size(std::size_t t) const { return face_size_[t]; }
     /// \pre the face did not fold.
-    [[nodiscard]] Vec3 normal(std::size_t t) const;
+    [[nodiscard]] Eigen::Vector3f normal(std::size_t t) const;
     /// Mean of the ring's vertices.
     [[nodiscard]] Vec3 centroid() const;
 

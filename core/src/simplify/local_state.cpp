@@ -13,7 +13,7 @@ LocalState initial_state(const SimplifyInput& input) {
         const Vec3& a = input.mesh.positions[t[0]];
         const Vec3& b = input.mesh.positions[t[1]];
         const Vec3& c = input.mesh.positions[t[2]];
-        state.faces[f] = {input.normals[f], stretch(a, b, c), face_size(a, b, c)};
+        state.faces[f] = {input.normals[f].cast<float>(), stretch(a, b, c), face_size(a, b, c)};
     }
     return state;
 }

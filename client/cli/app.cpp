@@ -1,0 +1,92 @@
+#include "cli/app.h"
+
+#include <exception>
+#include <iostream>
+#include <new>
+#include <variant>
+
+#include "cli/arguments.h"
+#include "cli/interrupt.h"
+#include "cli/local_run.h"
+#include "cli/message.h"
+#include "cli/outcome.h"
+#include "cli/output.h"
+#include "cli/progress_bar.h"
+#include "cli/remote_run.h"
+#include "cli/report.h"
+#include "vsplit/base/execution_context.h"
+#include "wire/json.h"
+
+namespace vsplit::cli {
+namespace {
+
+const google::protobuf::Message& document_of(const Outcome& outcome) {
+    return std::visit([](const auto& d) -> const google::protobuf::Message& { return d; }, outcome.document);
+}
+
+void print(const Arguments& arguments, const Outcome& outcome) {
+    if (arguments.json) {
+        std::cout << wire::to_json(document_of(outcome), wire::JsonStyle::kIndented) << std::flush;
+    } else {
+        std::cout << report(outcome.document, arguments.verb == Verb::kQuality) << written_lines(arguments.outputs) << std::flush;
+    }
+}
+
+/// What the exit status does not say but a person should know.
+void print_notes(const Arguments& arguments, const v1::Representation& made) {
+    const std::optional<std::uint32_t> asked = asked_faces(arguments);
+    if (asked) std::cerr << nearest_note(*asked, made);
+    if (arguments.verb == Verb::kControl) std::cerr << violation_messages(made);
+}
+
+int finish(const Arguments& arguments, const Outcome& outcome) {
+    print(arguments, outcome);
+    if (!std::cout) {
+        std::cerr << error_message({Cause::kFileAccess, "cannot write to the standard output", ""});
+        return kExitFailed;
+    }
+    const auto* made = std::get_if<v1::Representation>(&outcome.document);
+    if (made == nullptr) return kExitDone;
+    print_notes(arguments, *made);
+    return arguments.verb == Verb::kControl && !made->bounds_satisfied() ? kExitBoundBroken : kExitDone;
+}
+
+int fail(const Error& error) {
+    std::cerr << error_message(error);
+    return kExitFailed;
+}
+
+Expected<Outcome> execute(const Arguments& arguments, const std::vector<Output>& outputs, const InterruptWatch& interrupt) {
+    ProgressBar progress(arguments.no_progress ? ProgressBar::Shown::kNever : ProgressBar::Shown::kOnTerminals);
+    Expected<Outcome> outcome = arguments.server.empty() ? run_locally(arguments, progress, interrupt.token())
+                                                         : run_on_server(arguments, outputs, progress, interrupt.token());
+    if (!outcome) return outcome;
+    if (interrupt.token().stop_requested()) return ExecutionContext::cancelled_error();
+    if (Status written = write_outputs(*outcome, outputs); !written) return written.error();
+    return outcome;
+}
+
+int run_parsed(const Arguments& arguments) {
+    const Expected<std::vector<Output>> outputs = plan_outputs(arguments);
+    if (!outputs) return fail(outputs.error());
+    const InterruptWatch interrupt;
+    const Expected<Outcome> outcome = execute(arguments, *outputs, interrupt);
+    return outcome ? finish(arguments, *outcome) : fail(outcome.error());
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) {
+    try {
+        const std::variant<Arguments, int> parsed = parse(argc, argv);
+        if (const int* exit_status = std::get_if<int>(&parsed)) return *exit_status;
+        return run_parsed(std::get<Arguments>(parsed));
+    } catch (const std::bad_alloc&) {
+        return fail({Cause::kLimitExceeded,
+                     "not enough memory for this mesh; ask for a coarser subdivision, or use a larger machine", ""});
+    } catch (const std::exception& e) {
+        return fail({Cause::kInternal, e.what(), ""});
+    }
+}
+
+}  // namespace vsplit::cli

@@ -1,0 +1,266 @@
+#include "cli/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <string_view>
+
+#include "cli/app.h"
+#include "cli/message.h"
+
+namespace vsplit::cli {
+namespace {
+
+constexpr const char* kAbout =
+    "vsplit makes triangle meshes fit for finite-element analysis, at any resolution.\n"
+    "All lengths are in the units of the mesh. `vsplit VERB --help` tells a verb's options.";
+
+constexpr const char* kExitStatuses =
+    "Exit status: 0 done; 1 the input or an option is at fault; 2 done, but a bound of control could not be met.\n"
+    "Example:\n  vsplit improve crankshaft.stl -o improved.vsplit -o improved.stl";
+
+/// Refuses what is no number, in the words of the engine, before CLI11 does in its own.
+template <class Number>
+CLI::Validator accepts(const char* accepted) {
+    const auto check = [accepted](const std::string& text) {
+        Number value{};
+        return CLI::detail::lexical_cast(text, value) ? std::string() : "'" + text + "' is given; accepted is " + accepted;
+    };
+    return {check, ""};
+}
+
+CLI::Validator whole_number() { return accepts<std::uint32_t>("a whole number from 0 to 4294967295"); }
+CLI::Validator real_number() { return accepts<double>("a number, e.g. 0.25 or 1e-3"); }
+
+/// An option whose values have names.
+template <class Value>
+CLI::Option* add_choice(CLI::App& verb, const std::string& name, const std::map<std::string, Value>& values,
+                        const std::function<void(Value)>& take, const std::string& about) {
+    std::string accepted;
+    for (const auto& [text, value] : values) accepted += (accepted.empty() ? "" : ", ") + text;
+    const auto check = [values, accepted](const std::string& text) {
+        return values.count(text) > 0 ? std::string() : "'" + text + "' is given; accepted is one of " + accepted;
+    };
+    const auto convert = [values, take](const std::string& text) { take(values.at(text)); };
+    return verb.add_option_function<std::string>(name, convert, about)->check(CLI::Validator(check, ""));
+}
+
+void add_input(CLI::App& verb, Arguments& a, const char* what) {
+    verb.add_option("IN", a.input, what);
+    verb.add_option("--weld", a.weld,
+                    "Merge vertices within this distance while reading a mesh; length, >= 0. Default 0: equal ones only")
+        ->check(real_number())
+        ->type_name("T");
+    add_choice<v1::Repair>(
+        verb, "--repair", {{"none", v1::NONE}, {"safe", v1::SAFE}, {"full", v1::FULL}},
+        [&a](v1::Repair repair) { a.repair = repair; },
+        "How to mend a broken mesh: none|safe|full. Default none; this version offers no other")
+        ->type_name("R");
+}
+
+void add_output(CLI::App& verb, Arguments& a) {
+    verb.add_option("-o,--output", a.outputs,
+                    "File to write, its format by extension: .stl .obj .ply .off .vsplit; may be repeated")
+        ->type_name("OUT")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
+    verb.add_option("--format", a.format, "Format of OUT instead: stl, stl-ascii, obj, ply, ply-ascii, off or vsplit")
+        ->type_name("F");
+    verb.add_flag("--json", a.json, "Print one JSON document on the standard output");
+    verb.add_flag("--no-progress", a.no_progress, "No progress bar; there is none anyway where stderr is no terminal");
+    verb.add_option("--threads", a.threads, "Threads to use, 0 to 1024; the result does not depend on it. Default 0: all cores")
+        ->check(whole_number())
+        ->check(CLI::Range(0U, 1024U).description(""))
+        ->type_name("N");
+}
+
+void add_server(CLI::App& verb, Arguments& a) {
+    constexpr const char* kGroup = "With a server";
+    verb.add_option("--server", a.server, "Work on this vsplitd instead of in this process")
+        ->type_name("HOST:PORT")
+        ->group(kGroup);
+    verb.add_option("--session", a.session, "Use this session instead of uploading; leave IN out, or give -")
+        ->type_name("ID")
+        ->group(kGroup);
+    verb.add_option("--representation", a.representation,
+                    "The representation of the session to start from. Default: the upload "
+                    "(resolution: the newest)")
+        ->type_name("ID")
+        ->group(kGroup);
+    verb.add_flag("--keep", a.keep, "Keep the new session, and print 'session ID' on stderr")->group(kGroup);
+}
+
+void add_resolution(CLI::App& verb, Arguments& a, const char* what) {
+    verb.add_option("--faces", a.faces, what)->check(whole_number())->type_name("N");
+}
+
+/// What improve and control share.
+template <class Options>
+void add_method(CLI::App& verb, Arguments& a, Options& o, const char* default_faces) {
+    verb.add_option("--faces", o.faces, std::string("Faces of the result; >= 4. Default: ") + default_faces)
+        ->check(whole_number())
+        ->type_name("N");
+    verb.add_option(
+            "--faces-min", o.faces_min,
+            "Simplify on to this many faces, for coarser resolutions in a .vsplit file; 4 to --faces. Default 4: as far as "
+            "it goes")
+        ->check(whole_number())
+        ->type_name("N");
+    verb.add_option(
+            "--tolerance", o.tolerance,
+            "Bound of a collapse's quadric error, as a length > 0: the square root of the paper's tau_TL. Default 0.1 % of "
+            "the bounding box's diagonal")
+        ->check(real_number())
+        ->type_name("T");
+    verb.add_option("--max-deviation", o.max_deviation, "Guaranteed distance to the source, length; not offered by this version")
+        ->check(real_number())
+        ->type_name("D");
+    verb.add_option("--feature-angle", o.feature_angle,
+                    "An edge whose faces' normals differ by more is kept as a crease; degrees, 0 to 180. Default 40")
+        ->check(real_number())
+        ->type_name("A");
+    verb.add_option("--feature-weight", o.feature_weight,
+                    "Weight of a right-angled crease against the planes, 0 to 1e6. Default 10")
+        ->check(real_number())
+        ->type_name("W");
+    add_choice<Mode>(
+        verb, "--mode", {{"strict", Mode::kStrict}, {"extended", Mode::kExtended}}, [&o](Mode mode) { o.mode = mode; },
+        "strict|extended: strict is the paper's method; extended is not offered by this version. Default strict")
+        ->type_name("M");
+    verb.add_option(
+            "--source-faces", a.source_faces,
+            "Where IN is a .vsplit file or --representation is given: its resolution to start from. Default: the one it was "
+            "made for")
+        ->check(whole_number())
+        ->type_name("N");
+}
+
+void add_info(CLI::App& app, Arguments& a) {
+    CLI::App& verb = *app.add_subcommand("info", "Counts, topology and shape of a mesh, or what a .vsplit file holds");
+    add_input(verb, a, "Mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
+    add_resolution(verb, a, "Resolution of a representation to describe. Default: the one it was made for");
+    verb.footer("Example:\n  vsplit info part.stl --json");
+}
+
+void add_quality(CLI::App& app, Arguments& a) {
+    CLI::App& verb = *app.add_subcommand("quality", "As info, with the histogram of stretch and the worst faces");
+    add_input(verb, a, "Mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
+    add_resolution(verb, a, "Resolution of a representation to describe. Default: the one it was made for");
+    verb.footer(
+        "Stretch is sqrt(12) * inradius / longest edge: 1 equilateral, 0 degenerate; solvers want 0.2 and more.\n"
+        "Example:\n  vsplit quality improved.vsplit --faces 5000");
+}
+
+void add_improve(CLI::App& app, Arguments& a) {
+    CLI::App& verb = *app.add_subcommand("improve", "Improve the shape of the faces within a tolerance of the surface");
+    add_input(verb, a, "Closed mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
+    verb.add_option(
+            "--subdivide", a.improve.subdivision_size,
+            "Split edges until none is longer (the paper's sigma_SZ); length > 0. Default 1 % of the bounding box's diagonal")
+        ->check(real_number())
+        ->type_name("S");
+    add_method(verb, a, a.improve, "a mean edge of 1.5 times --subdivide");
+    verb.footer("Example:\n  vsplit improve crankshaft.stl --subdivide 8 --tolerance 1 --faces 30000 -o improved.vsplit");
+}
+
+void add_control(CLI::App& app, Arguments& a) {
+    CLI::App& verb = *app.add_subcommand("control", "Bring stretch, size and valence within bounds");
+    add_input(verb, a, "Closed mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
+    verb.add_option("--subdivisions", a.control.subdivisions, "One-to-four subdivisions first; 0 to 12. Default 1")
+        ->check(whole_number())
+        ->type_name("n");
+    verb.add_option("--min-stretch", a.control.min_stretch, "Least stretch of a face (tau_ST); 0 to 1. Default 0.2")
+        ->check(real_number())
+        ->type_name("X");
+    verb.add_option("--max-size", a.control.max_size, "Longest edge (tau_SZ); length > 0. Default: no bound")
+        ->check(real_number())
+        ->type_name("S");
+    verb.add_option("--max-valence", a.control.max_valence, "Most edges at a vertex (tau_VL); >= 6. Default: no bound")
+        ->check(whole_number())
+        ->type_name("V");
+    add_method(verb, a, a.control, "as many as IN has");
+    verb.footer(
+        "Exit status 2 says that a bound could not be met; stderr says which, how often and why.\n"
+        "Example:\n  vsplit control improved.vsplit --min-stretch 0.2 --max-valence 10 --max-size 12 -o controlled.stl");
+}
+
+void add_resolution_verb(CLI::App& app, Arguments& a) {
+    CLI::App& verb = *app.add_subcommand("resolution", "The mesh of a representation at another resolution");
+    add_input(verb, a, ".vsplit file");
+    add_resolution(verb, a, "Resolution; the nearest that exists is taken. Default: the one it was made for");
+    verb.footer("Example:\n  vsplit resolution improved.vsplit --faces 5000 -o coarse.stl");
+}
+
+const std::map<std::string_view, Verb>& verbs() {
+    static const std::map<std::string_view, Verb> all{{"info", Verb::kInfo},
+                                                      {"improve", Verb::kImprove},
+                                                      {"control", Verb::kControl},
+                                                      {"resolution", Verb::kResolution},
+                                                      {"quality", Verb::kQuality}};
+    return all;
+}
+
+std::string verb_names() {
+    std::string names;
+    for (const auto& [name, verb] : verbs()) names += (names.empty() ? "" : ", ") + std::string(name);
+    return names;
+}
+
+int refuse(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    const std::string help = chosen.empty() ? "vsplit --help" : "vsplit " + chosen.front()->get_name() + " --help";
+    const std::string what = chosen.empty() ? "no verb is given; accepted is one of " + verb_names() : error.what();
+    std::cerr << error_message({Cause::kInvalidOption, what + "; see `" + help + "`", ""});
+    return kExitFailed;
+}
+
+void build(CLI::App& app, Arguments& a) {
+    app.set_version_flag("--version", "vsplit " VSPLIT_VERSION);
+    app.footer(kExitStatuses);
+    app.require_subcommand(1);
+    add_info(app, a);
+    add_improve(app, a);
+    add_control(app, a);
+    add_resolution_verb(app, a);
+    add_quality(app, a);
+    for (CLI::App* verb : app.get_subcommands({})) {
+        add_output(*verb, a);
+        add_server(*verb, a);
+    }
+}
+
+}  // namespace
+
+std::variant<Arguments, int> parse(int argc, const char* const* argv) {
+    Arguments arguments;
+    CLI::App app(kAbout, "vsplit");
+    build(app, arguments);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {  // --help, --version
+        return app.exit(e);
+    } catch (const CLI::ParseError& e) {
+        return refuse(app, e);
+    }
+    arguments.verb = verbs().at(app.get_subcommands().front()->get_name());
+    return arguments;
+}
+
+std::optional<std::uint32_t> asked_faces(const Arguments& arguments) {
+    if (arguments.verb == Verb::kImprove) return arguments.improve.faces;
+    if (arguments.verb == Verb::kControl) return arguments.control.faces;
+    return arguments.faces;
+}
+
+bool is_representation_file(const std::string& name) {
+    constexpr std::string_view kExtension = ".vsplit";
+    const auto same = [](char left, char right) { return left == std::tolower(static_cast<unsigned char>(right)); };
+    return name.size() > kExtension.size() &&
+           std::equal(kExtension.begin(), kExtension.end(), name.end() - static_cast<std::ptrdiff_t>(kExtension.size()), same);
+}
+
+}  // namespace vsplit::cli

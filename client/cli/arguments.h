@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "vsplit/method/method_options.h"
+#include "vsplit/v1/meshing.pb.h"
+
+namespace vsplit::cli {
+
+enum class Verb { kInfo, kImprove, kControl, kResolution, kQuality };
+
+/// The command line, as it was given; nothing is checked here but its grammar.
+struct Arguments {
+    Verb verb = Verb::kInfo;
+    std::string input;  ///< file; empty or "-" with a session
+    std::vector<std::string> outputs;
+    std::string format;  ///< of the outputs; empty: by extension
+    bool json = false;
+    bool no_progress = false;
+    unsigned threads = 0;  ///< 0: all cores
+    double weld = 0;
+    v1::Repair repair = v1::NONE;
+    std::optional<std::uint32_t> faces;         ///< info, quality, resolution: the resolution to show
+    std::optional<std::uint32_t> source_faces;  ///< improve, control: resolution of the representation to work on
+    ImproveOptions improve;
+    ControlOptions control;
+    std::string server;
+    std::string session;
+    std::string representation;
+    bool keep = false;
+};
+
+/// Parses; prints help, version, or what is wrong with the line, and then returns the exit status instead.
+[[nodiscard]] std::variant<Arguments, int> parse(int argc, const char* const* argv);
+
+/// The resolution that --faces asks for, whichever verb it was given to.
+[[nodiscard]] std::optional<std::uint32_t> asked_faces(const Arguments& arguments);
+
+/// Whether a file's name is that of a stored representation.
+[[nodiscard]] bool is_representation_file(const std::string& name);
+
+}  // namespace vsplit::cli

@@ -1,0 +1,139 @@
+#include "cli/local_run.h"
+
+#include <functional>
+#include <utility>
+
+#include "vsplit/base/execution_context.h"
+#include "vsplit/io/read_mesh.h"
+#include "vsplit/mesh/inspect.h"
+#include "vsplit/method/control.h"
+#include "vsplit/method/improve.h"
+#include "vsplit/mrr/mrr_file.h"
+#include "vsplit/mrr/progressive_mesh.h"
+#include "wire/convert.h"
+#include "wire/json.h"
+#include "wire/representation.h"
+
+namespace vsplit::cli {
+namespace {
+
+using StopCallback = std::stop_callback<std::function<void()>>;
+
+Status check_arguments(const Arguments& a) {
+    if (!a.session.empty() || !a.representation.empty() || a.keep) {
+        return Error{Cause::kInvalidOption, "--session, --representation and --keep need --server", "server"};
+    }
+    if (a.input.empty() || a.input == "-") return Error{Cause::kInvalidOption, "a file is needed to work on", "input"};
+    if (a.source_faces && !is_representation_file(a.input)) {
+        return Error{Cause::kInvalidOption, "a mesh has one resolution; accepted with a .vsplit file only", "source_faces"};
+    }
+    return wire::check_repair(a.repair);
+}
+
+Expected<TriangleMesh> read_source(const Arguments& a) {
+    if (is_representation_file(a.input)) {
+        Expected<Outcome> stored = load_representation(a.input, a.source_faces);
+        if (!stored) return stored.error();
+        return *std::move(stored->mesh);
+    }
+    ReadOptions options;
+    options.weld = a.weld;
+    Expected<ReadResult> read = read_mesh_file(a.input, options);
+    if (!read) return read.error();
+    return std::move(read->mesh);
+}
+
+/// `options` with its defaults for this mesh.
+ImproveOptions filled_in(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits) {
+    return default_options(mesh, options, limits);
+}
+ControlOptions filled_in(const TriangleMesh& mesh, const ControlOptions& options, const MethodLimits& /*limits*/) {
+    return default_options(mesh, options);
+}
+
+using MethodFunction = std::function<Expected<MethodResult>(const TriangleMesh&, const MethodLimits&, const ExecutionContext&)>;
+
+template <class Options>
+Expected<Outcome> run_method(const Arguments& a, const Options& options, const MethodFunction& method, ProgressBar& progress,
+                             const std::stop_token& stop) {
+    if (Status valid = check_options(options); !valid) return valid.error();
+    const Expected<TriangleMesh> source = read_source(a);
+    if (!source) return source.error();
+    ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
+    const StopCallback on_stop(stop, [&context] { context.cancel(); });
+    const MethodLimits limits;
+    Expected<MethodResult> result = method(*source, limits, context);
+    if (!result) return result.error();
+    v1::Representation made = wire::describe("", "", source->face_count(), filled_in(*source, options, limits), *result);
+    TriangleMesh mesh = mesh_at(result->mrr, result->mrr.level_for(result->faces));
+    return Outcome{std::move(made), std::move(mesh), std::move(result->mrr)};
+}
+
+Expected<Outcome> run_improve(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
+    const MethodFunction method = [&](const TriangleMesh& mesh, const MethodLimits& limits, const ExecutionContext& context) {
+        return improve(mesh, a.improve, limits, context);
+    };
+    return run_method(a, a.improve, method, progress, stop);
+}
+
+Expected<Outcome> run_control(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
+    const MethodFunction method = [&](const TriangleMesh& mesh, const MethodLimits& limits, const ExecutionContext& context) {
+        return control(mesh, a.control, limits, context);
+    };
+    return run_method(a, a.control, method, progress, stop);
+}
+
+void add_worst_faces(const TriangleMesh& mesh, v1::Quality& quality) {
+    quality = wire::to_proto(measure_quality(mesh), worst_faces(mesh, kWorstFaces));
+}
+
+Expected<Outcome> describe_mesh(const Arguments& a) {
+    if (a.faces) {
+        return Error{Cause::kInvalidOption, "a mesh has one resolution; accepted with a .vsplit file only", "faces"};
+    }
+    Expected<TriangleMesh> mesh = read_source(a);
+    if (!mesh) return mesh.error();
+    v1::MeshSummary summary = wire::to_proto(inspect(*mesh));
+    if (a.verb == Verb::kQuality) add_worst_faces(*mesh, *summary.mutable_quality());
+    return Outcome{std::move(summary), *std::move(mesh), {}};
+}
+
+Expected<Outcome> describe_representation(const Arguments& a) {
+    Expected<Outcome> outcome = load_representation(a.input, a.faces);
+    if (!outcome || a.verb != Verb::kQuality) return outcome;
+    add_worst_faces(*outcome->mesh, *std::get<v1::Representation>(outcome->document).mutable_quality());
+    return outcome;
+}
+
+/// What is known of a representation that was stored without a description, or with one that cannot be read.
+v1::Representation description_of(const StoredMrr& stored) {
+    v1::Representation representation;
+    const Status read = wire::from_json(stored.description, representation, wire::UnknownFields::kIgnored);
+    if (!read) representation.Clear();
+    representation.set_faces_min(stored.mrr.faces_min());
+    representation.set_faces_max(stored.mrr.faces_max());
+    return representation;
+}
+
+}  // namespace
+
+Expected<Outcome> load_representation(const std::string& path, std::optional<std::uint32_t> faces) {
+    Expected<StoredMrr> stored = load_mrr(path);
+    if (!stored) return stored.error();
+    v1::Representation representation = description_of(*stored);
+    TriangleMesh mesh = mesh_at(stored->mrr, stored->mrr.level_for(faces.value_or(stored->faces)));
+    wire::describe_resolution(mesh, representation);
+    return Outcome{std::move(representation), std::move(mesh), std::move(stored->mrr)};
+}
+
+Expected<Outcome> run_locally(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
+    if (Status valid = check_arguments(a); !valid) return valid.error();
+    if (a.verb == Verb::kImprove) return run_improve(a, progress, stop);
+    if (a.verb == Verb::kControl) return run_control(a, progress, stop);
+    if (is_representation_file(a.input)) return describe_representation(a);
+    if (a.verb != Verb::kResolution) return describe_mesh(a);
+    return Error{Cause::kInvalidOption, "'" + a.input + "' is no .vsplit file; make one with `vsplit improve MESH -o x.vsplit`",
+                 "input"};
+}
+
+}  // namespace vsplit::cli

@@ -1,0 +1,70 @@
+#include "cli/message.h"
+
+#include <map>
+#include <string_view>
+
+#include "cli/number_text.h"
+
+namespace vsplit::cli {
+namespace {
+
+/// The option that fills a field; empty where there is none. Fields are named in the contract, options on the command line.
+std::string option_of(const std::string& field) {
+    static const std::map<std::string_view, std::string_view> kOptions{{"subdivision_size", "--subdivide"},
+                                                                       {"tolerance", "--tolerance"},
+                                                                       {"max_deviation", "--max-deviation"},
+                                                                       {"feature_angle", "--feature-angle"},
+                                                                       {"feature_weight", "--feature-weight"},
+                                                                       {"faces", "--faces"},
+                                                                       {"faces_min", "--faces-min"},
+                                                                       {"mode", "--mode"},
+                                                                       {"subdivisions", "--subdivisions"},
+                                                                       {"min_stretch", "--min-stretch"},
+                                                                       {"max_size", "--max-size"},
+                                                                       {"max_valence", "--max-valence"},
+                                                                       {"weld", "--weld"},
+                                                                       {"repair", "--repair"},
+                                                                       {"format", "--format"},
+                                                                       {"server", "--server"},
+                                                                       {"session", "--session"},
+                                                                       {"representation", "--representation"},
+                                                                       {"keep", "--keep"},
+                                                                       {"source_faces", "--source-faces"},
+                                                                       {"output", "-o"},
+                                                                       {"input", "IN"}};
+    const auto found = kOptions.find(field);
+    return found == kOptions.end() ? std::string() : std::string(found->second);
+}
+
+}  // namespace
+
+std::string error_message(const Error& error) {
+    if (error.cause == Cause::kCancelled) return "vsplit: cancelled\n";
+    std::string text = "vsplit: " + std::string(cause_name(error.cause)) + ": " + error.message;
+    const std::string option = option_of(error.field);
+    if (!option.empty()) text += " (" + option + ")";
+    return text + "\n";
+}
+
+std::string broken_by(const v1::Violation& violation) {
+    const bool vertices = violation.bound() == "max_valence";
+    return vertices ? counted(violation.count(), "vertex", "vertices") : counted(violation.count(), "face", "faces");
+}
+
+std::string violation_messages(const v1::Representation& made) {
+    std::string text;
+    for (const v1::Violation& violation : made.violations()) {
+        text += "vsplit: bound not met: " + violation.bound() + " " + figure(violation.limit()) + ": " + broken_by(violation) +
+                ", worst " + figure(violation.worst()) + "; " + violation.reason() + "\n";
+    }
+    return text;
+}
+
+std::string nearest_note(std::uint32_t asked, const v1::Representation& made) {
+    const std::uint32_t faces = made.faces();
+    if (asked == faces || asked == std::uint64_t{faces} + 1) return {};
+    return "vsplit: note: " + grouped(asked) + " faces asked for, " + grouped(faces) + " is the nearest resolution (there are " +
+           grouped(made.faces_min()) + " to " + grouped(made.faces_max()) + ")\n";
+}
+
+}  // namespace vsplit::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "vsplit/base/error.h"
+#include "vsplit/v1/meshing.pb.h"
+
+namespace vsplit::cli {
+
+/// What stderr says of a failure: one line, with the option at fault where a field is named.
+[[nodiscard]] std::string error_message(const Error& error);
+
+/// A line for each bound that is broken: which, how often, the worst, why. Empty when all hold.
+[[nodiscard]] std::string violation_messages(const v1::Representation& made);
+
+/// How many faces or vertices break a bound, e.g. "12 faces".
+[[nodiscard]] std::string broken_by(const v1::Violation& violation);
+
+/// A line that says which resolution was taken where the one asked for does not exist; empty where it does (counts go in steps of
+/// two faces).
+[[nodiscard]] std::string nearest_note(std::uint32_t asked, const v1::Representation& made);
+
+}  // namespace vsplit::cli

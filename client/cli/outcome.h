@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "vsplit/mesh/triangle_mesh.h"
+#include "vsplit/mrr/multires_mesh.h"
+#include "vsplit/v1/meshing.pb.h"
+
+namespace vsplit::cli {
+
+/// What `--json` prints and what the report tells.
+using Document = std::variant<v1::MeshSummary, v1::Representation>;
+
+/// What a verb came to.
+struct Outcome {
+    Document document;
+    std::optional<TriangleMesh> mesh;  ///< what mesh files are written from; empty where they were downloaded as files
+    std::optional<MultiresMesh> mrr;   ///< what a .vsplit file is written from
+};
+
+}  // namespace vsplit::cli

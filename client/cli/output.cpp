@@ -1,0 +1,79 @@
+#include "cli/output.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "vsplit/io/write_mesh.h"
+#include "vsplit/mrr/mrr_file.h"
+#include "wire/json.h"
+
+namespace vsplit::cli {
+namespace {
+
+constexpr const char* kRepresentationFormat = "vsplit";
+
+/// A computation of an hour must not end at a directory that was misspelt.
+Status check_place(const std::string& path) {
+    std::error_code ignored;
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    if (!parent.empty() && !std::filesystem::is_directory(parent, ignored)) {
+        return Error{Cause::kNotFound, "cannot write '" + path + "': there is no directory '" + parent.string() + "'", "output"};
+    }
+    if (std::filesystem::is_directory(path, ignored)) {
+        return Error{Cause::kFileAccess, "cannot write '" + path + "': it is a directory", "output"};
+    }
+    return Done{};
+}
+
+Expected<Output> plan_output(const std::string& path, const std::string& format_name) {
+    if (format_name == kRepresentationFormat) return Output{path, {}};
+    if (format_name.empty() && is_representation_file(path)) return Output{path, {}};
+    Expected<MeshFormat> format = format_name.empty() ? format_by_extension(path) : format_by_name(format_name);
+    if (format) return Output{path, *format};
+    Error error = format.error();
+    error.message += "; a whole representation is written to .vsplit";
+    error.field = format_name.empty() ? "output" : "format";
+    return error;
+}
+
+Status write_representation(const Outcome& outcome, const std::string& path) {
+    const auto* made = std::get_if<v1::Representation>(&outcome.document);
+    if (made == nullptr || !outcome.mrr) {
+        return Error{Cause::kInvalidOption,
+                     "'" + path +
+                         "' would hold a representation, and there is only a mesh; accepted are .stl, "
+                         ".obj, .ply and .off, or `improve` or `control` the mesh first",
+                     "output"};
+    }
+    return save_mrr({*outcome.mrr, made->faces(), wire::to_json(*made)}, path);
+}
+
+}  // namespace
+
+Expected<std::vector<Output>> plan_outputs(const Arguments& arguments) {
+    std::vector<Output> outputs;
+    for (const std::string& path : arguments.outputs) {
+        if (Status possible = check_place(path); !possible) return possible.error();
+        Expected<Output> output = plan_output(path, arguments.format);
+        if (!output) return output.error();
+        outputs.push_back(*std::move(output));
+    }
+    return outputs;
+}
+
+bool wants_representation(const std::vector<Output>& outputs) {
+    return std::any_of(outputs.begin(), outputs.end(), [](const Output& output) { return !output.format; });
+}
+
+Status write_outputs(const Outcome& outcome, const std::vector<Output>& outputs) {
+    for (const Output& output : outputs) {
+        if (output.format && !outcome.mesh) continue;  // the server sent the file
+        Status written = output.format ? write_mesh_file(*outcome.mesh, *output.format, output.path)
+                                       : write_representation(outcome, output.path);
+        if (!written) return written;
+    }
+    return Done{};
+}
+
+}  // namespace vsplit::cli

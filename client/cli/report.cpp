@@ -1,0 +1,146 @@
+#include "cli/report.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "cli/message.h"
+#include "cli/number_text.h"
+#include "vsplit/quality/stretch.h"
+
+namespace vsplit::cli {
+namespace {
+
+constexpr std::size_t kNameWidth = 18;
+constexpr std::size_t kBarWidth = 40;
+
+std::string line(const std::string& name, const std::string& value) { return left(name, kNameWidth) + value + "\n"; }
+
+std::string point(const v1::Vector& p) { return "(" + figure(p.x()) + ", " + figure(p.y()) + ", " + figure(p.z()) + ")"; }
+
+std::string share(std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? "" : " (" + fixed(100 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %)";
+}
+
+std::string quality_lines(const v1::Quality& q) {
+    std::string text = line("stretch mean", fixed(q.stretch_mean(), 4));
+    text += line("stretch min", fixed(q.stretch_min(), 4));
+    text += line("stretch 1 %", fixed(q.stretch_p01(), 4));
+    text += line("stretch < 0.2", counted(q.faces_below_02(), "face", "faces") + share(q.faces_below_02(), q.faces()));
+    text += line("longest edge", figure(q.size_max()));
+    text += line("largest valence", grouped(q.valence_max()));
+    if (q.has_deviation_max()) text += line("deviation", figure(q.deviation_max()));
+    return text;
+}
+
+std::string histogram_line(double from, double to, std::uint32_t count, std::uint32_t most) {
+    const std::size_t length = most == 0 ? 0 : (std::size_t{count} * kBarWidth + most - 1) / most;  // a face is never invisible
+    return "  " + fixed(from, 2) + "-" + fixed(to, 2) + " |" + left(std::string(length, '#'), kBarWidth) +
+           right(grouped(count), 12) + "\n";
+}
+
+std::string histogram(const v1::Quality& q) {
+    const auto& counts = q.stretch_histogram();
+    if (counts.empty()) return {};
+    const std::uint32_t most = *std::max_element(counts.begin(), counts.end());
+    const double width = 1.0 / counts.size();
+    std::string text = "\nstretch            faces\n";
+    for (int i = 0; i < counts.size(); ++i) {
+        const double from = i * width;
+        if (i > 0 && std::abs(from - kStretchFloor) < width / 2)
+            text += "  ---- 0.2 -- solvers want no face above this line ----\n";
+        text += histogram_line(from, from + width, counts[i], most);
+    }
+    return text;
+}
+
+std::string worst_faces(const v1::Quality& q) {
+    if (q.worst_faces().empty()) return {};
+    std::string text = "\n" + right("worst face", 12) + right("stretch", 12) + right("size", 12) + "  centroid\n";
+    for (const v1::FaceQuality& face : q.worst_faces()) {
+        text += right(std::to_string(face.face()), 12) + right(fixed(face.stretch(), 6), 12) + right(figure(face.size()), 12) +
+                "  " + point(face.centroid()) + "\n";
+    }
+    return text;
+}
+
+std::string details(const v1::Quality& q, bool detailed) { return detailed ? histogram(q) + worst_faces(q) : std::string(); }
+
+std::string text_of(const v1::MeshSummary& m, bool detailed) {
+    std::string text = line("faces", grouped(m.faces()));
+    text += line("vertices", grouped(m.vertices()));
+    text += line("closed", m.closed() ? "yes" : "no, " + counted(m.boundary_edges(), "boundary edge", "boundary edges"));
+    text += line("components", grouped(m.components()));
+    if (m.closed()) text += line("genus", std::to_string(m.genus()));
+    if (m.bounding_box().has_min()) text += line("box", point(m.bounding_box().min()) + " to " + point(m.bounding_box().max()));
+    text += quality_lines(m.quality());
+    for (const v1::Finding& finding : m.findings()) text += line("finding", finding.kind() + ": " + finding.message());
+    return text + details(m.quality(), detailed);
+}
+
+std::string method_name(v1::Method method) {
+    switch (method) {
+        case v1::IMPROVE:
+            return "improve";
+        case v1::CONTROL:
+            return "control";
+        default:
+            return "not recorded";
+    }
+}
+
+double seconds(const google::protobuf::Duration& d) { return static_cast<double>(d.seconds()) + d.nanos() * 1e-9; }
+
+template <class Options>
+std::string common_options(const Options& o) {
+    std::string text = line("tolerance", figure(o.tolerance()));
+    text += line("feature angle", figure(o.feature_angle()) + " degrees");
+    text += line("feature weight", figure(o.feature_weight()));
+    return text;
+}
+
+std::string option_lines(const v1::Representation& r) {
+    if (r.has_improve_options()) {
+        return line("subdivided to", figure(r.improve_options().subdivision_size())) + common_options(r.improve_options());
+    }
+    if (!r.has_control_options()) return {};
+    const v1::ControlOptions& o = r.control_options();
+    std::string text = line("subdivisions", std::to_string(o.subdivisions()));
+    text += line("least stretch", figure(o.min_stretch()));
+    if (o.has_max_size()) text += line("size bound", figure(o.max_size()));
+    if (o.has_max_valence()) text += line("valence bound", std::to_string(o.max_valence()));
+    return text + common_options(o);
+}
+
+std::string bounds_line(const v1::Representation& r) {
+    if (r.method() != v1::CONTROL) return {};
+    if (r.bounds_satisfied()) return line("bounds", "all hold");
+    std::string broken;
+    for (const v1::Violation& v : r.violations()) {
+        broken += (broken.empty() ? "" : "; ") + v.bound() + " broken by " + broken_by(v) + ", worst " + figure(v.worst());
+    }
+    return line("bounds", broken);
+}
+
+std::string text_of(const v1::Representation& r, bool detailed) {
+    std::string text;
+    if (!r.id().empty()) text += line("representation", r.id());
+    text += line("method", method_name(r.method()));
+    text += line("faces", grouped(r.faces()) + " (" + grouped(r.faces_min()) + " to " + grouped(r.faces_max()) + " at hand)");
+    text += option_lines(r) + quality_lines(r.quality()) + bounds_line(r);
+    if (r.has_elapsed()) text += line("time", fixed(seconds(r.elapsed()), 2) + " s");
+    return text + details(r.quality(), detailed);
+}
+
+}  // namespace
+
+std::string report(const Document& document, bool detailed) {
+    return std::visit([&](const auto& d) { return text_of(d, detailed); }, document);
+}
+
+std::string written_lines(const std::vector<std::string>& files) {
+    std::string text;
+    for (const std::string& file : files) text += line("written", file);
+    return text;
+}
+
+}  // namespace vsplit::cli

@@ -1,0 +1,69 @@
+#include "connect.h"
+
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+#include <grpcpp/support/channel_arguments.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <string_view>
+
+#include "call.h"
+#include "vsplit/base/execution_context.h"
+#include "vsplit/v1/meshing.grpc.pb.h"
+
+namespace vsplit::client {
+namespace {
+
+using Clock = std::chrono::system_clock;
+
+bool is_port(std::string_view text) {
+    std::uint16_t port = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+    return error == std::errc() && end == text.data() + text.size() && port != 0;
+}
+
+/// Without this, gRPC takes a missing port for 443 and an unknown scheme for a host's name.
+Status check_target(const std::string& target) {
+    const std::size_t colon = target.rfind(':');
+    const bool is_socket = target.starts_with("unix:") && target.size() > 5;
+    if (is_socket || (colon != std::string::npos && colon > 0 && is_port(std::string_view(target).substr(colon + 1))))
+        return Done{};
+    return Error{Cause::kInvalidOption, "server is '" + target + "'; accepted is HOST:PORT, e.g. 127.0.0.1:50051", "server"};
+}
+
+std::shared_ptr<grpc::Channel> create_channel(const std::string& target) {
+    constexpr int kMaxMessage = 64 << 20;  // a page of sessions with many representations
+    grpc::ChannelArguments arguments;
+    arguments.SetMaxReceiveMessageSize(kMaxMessage);
+    arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);  // a proxy for the web must not come between a client and its own machine
+    return grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments);
+}
+
+/// Why a channel does not connect: only a call is told.
+Error unreachable(const std::shared_ptr<grpc::Channel>& channel, const std::string& target) {
+    Call call({std::chrono::milliseconds(200), {}});
+    v1::ListSessionsResponse response;
+    const grpc::Status status = v1::Meshing::NewStub(channel)->ListSessions(call.context(), v1::ListSessionsRequest(), &response);
+    const std::string reason = status.error_code() == grpc::StatusCode::UNAVAILABLE ? status.error_message() : "no answer";
+    return {Cause::kUnavailable, "no vsplit server can be reached at " + target + ": " + reason, "server"};
+}
+
+}  // namespace
+
+Expected<std::shared_ptr<grpc::Channel>> open_channel(const std::string& target, const ConnectOptions& options) {
+    if (Status valid = check_target(target); !valid) return valid.error();
+    std::shared_ptr<grpc::Channel> channel = create_channel(target);
+    const Clock::time_point deadline = Clock::now() + options.timeout;
+    for (;;) {
+        const grpc_connectivity_state state = channel->GetState(true);
+        if (state == GRPC_CHANNEL_READY) return channel;
+        if (options.stop.stop_requested()) return ExecutionContext::cancelled_error();
+        if (state == GRPC_CHANNEL_TRANSIENT_FAILURE || Clock::now() >= deadline) return unreachable(channel, target);
+        // In short steps, to hear of a stop.
+        channel->WaitForStateChange(state, std::min(deadline, Clock::now() + std::chrono::milliseconds(50)));
+    }
+}
+
+}  // namespace vsplit::client

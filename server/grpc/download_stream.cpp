@@ -1,0 +1,101 @@
+#include "grpc/download_stream.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "service/guarded.h"
+#include "vsplit/io/write_mesh.h"
+#include "wire/convert.h"
+#include "wire/error_table.h"
+
+namespace vsplit::rpc {
+namespace {
+
+Expected<service::FileMapping> write_file(const TriangleMesh& mesh, MeshFormat format) {
+    Expected<service::TempFile> file = service::TempFile::create();
+    if (!file) return file.error();
+    const std::string text = write_mesh(mesh, format);
+    if (Status written = file->append(std::as_bytes(std::span(text))); !written) return written.error();
+    return file->map();
+}
+
+const char* content_type(MeshFormat format) {
+    switch (format) {
+        case MeshFormat::kStlBinary:
+        case MeshFormat::kStlAscii:
+            return "model/stl";
+        case MeshFormat::kObj:
+            return "model/obj";
+        case MeshFormat::kPlyAscii:
+        case MeshFormat::kOff:
+            return "text/plain";
+        case MeshFormat::kPlyBinary:
+            break;
+    }
+    return "application/octet-stream";  // PLY has no registered type
+}
+
+// E.g. "r1-5000.stl", "mesh-1234.ply". A format's name is its extension, with "-ascii" after it where there are two kinds.
+std::string file_name(const service::MeshRef& mesh, MeshFormat format) {
+    const std::string_view name = format_name(format);
+    return (mesh.representation.empty() ? std::string("mesh") : mesh.representation) + '-' + std::to_string(mesh.faces) + '.' +
+           std::string(name.substr(0, name.find('-')));
+}
+
+}  // namespace
+
+DownloadSource::DownloadSource(const service::PickedMesh& mesh, MeshFormat format, std::shared_ptr<Prepared> prepared)
+    : mesh_(mesh.ref()), format_(format), prepared_(std::move(prepared)) {}
+
+Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service,
+                                                                             const v1::DownloadMeshRequest& request,
+                                                                             const Wake& wake) {
+    const Expected<std::optional<MeshFormat>> asked = wire::from_proto(request.format());
+    if (!asked) return asked.error();
+    const MeshFormat format = asked->value_or(MeshFormat::kStlBinary);
+    const Expected<service::SessionSnapshot> session = service.snapshot(request.session());
+    if (!session) return session.error();
+    Expected<service::PickedMesh> mesh = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
+    if (!mesh) return mesh.error();
+    auto prepared = std::make_shared<Prepared>();
+    const bool taken = service.errand([prepared, wake, mesh = *mesh, format] {
+        prepared->put(service::guarded([&] { return write_file(*mesh.mesh(), format); }));
+        wake();
+    });
+    if (!taken) return Error{Cause::kUnavailable, "the server is shutting down", ""};
+    return std::unique_ptr<MessageSource>(new DownloadSource(*mesh, format, std::move(prepared)));
+}
+
+DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& end) {
+    if (!file_) {
+        std::optional<Expected<service::FileMapping>> prepared = prepared_->take();
+        if (!prepared) return Step::kWait;
+        if (!*prepared) {
+            end = wire::to_status(prepared->error());
+            return Step::kEnd;
+        }
+        file_ = **std::move(prepared);
+    } else if (sent_ == file_->bytes().size()) {
+        return Step::kEnd;
+    }
+    fill(chunk);
+    return Step::kMessage;
+}
+
+void DownloadSource::fill(v1::MeshChunk& chunk) {
+    chunk.Clear();
+    const std::span<const std::byte> rest = file_->bytes().subspan(sent_);
+    const std::span<const std::byte> part = rest.first(std::min(rest.size(), kChunkBytes));
+    chunk.set_offset(sent_);
+    chunk.set_data(part.data(), part.size());
+    if (sent_ == 0) {
+        chunk.set_size(rest.size());
+        chunk.set_file_name(file_name(mesh_, format_));
+        chunk.set_content_type(content_type(format_));
+        chunk.set_faces(mesh_.faces);
+    }
+    sent_ += part.size();
+}
+
+}  // namespace vsplit::rpc

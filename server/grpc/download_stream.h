@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "grpc/mailbox.h"
+#include "grpc/message_source.h"
+#include "service/meshing_service.h"
+#include "service/temp_file.h"
+#include "vsplit/v1/meshing.pb.h"
+
+namespace vsplit::rpc {
+
+/// DownloadMesh: an errand writes the file, unnamed and on disk, so that a slow reader costs one chunk of memory and not a file.
+class DownloadSource final : public MessageSource<v1::MeshChunk> {
+public:
+    static constexpr std::size_t kChunkBytes = 256 * 1024;
+
+    /// \return NOT_FOUND, NOT_READY, INVALID_OPTION, UNAVAILABLE.
+    [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
+                                                                       const v1::DownloadMeshRequest& request, const Wake& wake);
+
+    [[nodiscard]] Step next(v1::MeshChunk& chunk, grpc::Status& end) override;
+
+private:
+    using Prepared = Mailbox<Expected<service::FileMapping>>;
+
+    DownloadSource(const service::PickedMesh& mesh, MeshFormat format, std::shared_ptr<Prepared> prepared);
+
+    void fill(v1::MeshChunk& chunk);
+
+    const service::MeshRef mesh_;
+    const MeshFormat format_;
+    const std::shared_ptr<Prepared> prepared_;
+    std::optional<service::FileMapping> file_;
+    std::size_t sent_ = 0;
+};
+
+}  // namespace vsplit::rpc

@@ -1,0 +1,141 @@
+#include "grpc/meshing_rpcs.h"
+
+#include <span>
+#include <string>
+#include <utility>
+
+#include "grpc/download_stream.h"
+#include "grpc/level_stream.h"
+#include "grpc/method_stream.h"
+#include "grpc/pull_stream.h"
+#include "grpc/replies.h"
+#include "grpc/upload_stream.h"
+#include "service/guarded.h"
+#include "vsplit/quality/mesh_quality.h"
+#include "wire/convert.h"
+#include "wire/error_table.h"
+
+namespace vsplit::rpc {
+namespace {
+
+constexpr std::uint32_t kDefaultWorst = 20;
+constexpr std::uint32_t kMostWorst = 1000;
+
+void finish(grpc::ServerUnaryReactor* reactor, const RpcWatch& watch, const std::function<Status()>& answer) {
+    const Status open = watch.admit();
+    const Status answered = open ? service::guarded(answer) : open;
+    const grpc::Status status = answered ? grpc::Status() : wire::to_status(answered.error());
+    watch.finished(status);
+    reactor->Finish(status);
+}
+
+Status create_session(service::MeshingService& service, const v1::CreateSessionRequest& request, v1::Session& response) {
+    const Expected<std::optional<MeshFormat>> format = wire::from_proto(request.format());
+    if (!format) return format.error();
+    if (Status repair = wire::check_repair(request.repair()); !repair) return repair;
+    const Expected<service::SessionSnapshot> created =
+        request.mesh().empty() ? service.create_session()
+                               : service.create_session(std::as_bytes(std::span(request.mesh())), {*format, request.weld()});
+    if (!created) return created.error();
+    response = to_proto(*created);
+    return Done{};
+}
+
+Status list_sessions(service::MeshingService& service, const v1::ListSessionsRequest& request,
+                     v1::ListSessionsResponse& response) {
+    Expected<service::SessionPage> page = service.sessions().list(request.page_size(), request.page_token());
+    if (!page) return page.error();
+    for (const service::SessionSnapshot& session : page->sessions) *response.add_sessions() = to_proto(session);
+    response.set_next_page_token(std::move(page->next_page_token));
+    return Done{};
+}
+
+Status get_quality(service::MeshingService& service, const v1::GetQualityRequest& request, v1::Quality& response) {
+    const std::uint32_t worst = request.worst() == 0 ? kDefaultWorst : request.worst();
+    if (worst > kMostWorst) {
+        return Error{Cause::kInvalidOption,
+                     "worst is " + std::to_string(worst) + "; accepted are 0 to " + std::to_string(kMostWorst), "worst"};
+    }
+    const Expected<service::SessionSnapshot> session = service.snapshot(request.session());
+    if (!session) return session.error();
+    const Expected<service::PickedMesh> picked = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
+    if (!picked) return picked.error();
+    response = wire::to_proto(picked->quality(), worst_faces(*picked->mesh(), worst));
+    return Done{};
+}
+
+}  // namespace
+
+grpc::ServerUnaryReactor* MeshingRpcs::answer_now(Context* context, const RpcWatch& watch, const Answer& answer) {
+    grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
+    finish(reactor, watch, answer);
+    return reactor;
+}
+
+grpc::ServerUnaryReactor* MeshingRpcs::answer_later(Context* context, const RpcWatch& watch, Answer answer) {
+    grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
+    const bool taken = service_.errand([reactor, watch, answer = std::move(answer)] { finish(reactor, watch, answer); });
+    if (!taken) finish(reactor, watch, []() -> Status { return Error{Cause::kUnavailable, "the server is shutting down", ""}; });
+    return reactor;
+}
+
+template <class Source, class Request>
+auto* MeshingRpcs::stream(const char* method, const Request& request) {
+    using Message = typename Source::Message;
+    return PullStream<Message>::open(RpcWatch(ledger_, method, request.session()),
+                                     [&](const Wake& wake) { return Source::make(service_, request, wake); });
+}
+
+grpc::ServerUnaryReactor* MeshingRpcs::CreateSession(Context* context, const v1::CreateSessionRequest* request,
+                                                     v1::Session* response) {
+    return answer_later(context, RpcWatch(ledger_, "CreateSession", ""),
+                        [this, request, response] { return create_session(service_, *request, *response); });
+}
+
+grpc::ServerReadReactor<v1::UploadMeshRequest>* MeshingRpcs::UploadMesh(Context* /*context*/, v1::Session* response) {
+    return new UploadStream(service_, RpcWatch(ledger_, "UploadMesh", ""), response);
+}
+
+grpc::ServerUnaryReactor* MeshingRpcs::GetSession(Context* context, const v1::GetSessionRequest* request, v1::Session* response) {
+    return answer_now(context, RpcWatch(ledger_, "GetSession", request->session()), [this, request, response]() -> Status {
+        const Expected<service::SessionSnapshot> session = service_.snapshot(request->session());
+        if (!session) return session.error();
+        *response = to_proto(*session);
+        return Done{};
+    });
+}
+
+grpc::ServerUnaryReactor* MeshingRpcs::ListSessions(Context* context, const v1::ListSessionsRequest* request,
+                                                    v1::ListSessionsResponse* response) {
+    return answer_later(context, RpcWatch(ledger_, "ListSessions", ""),
+                        [this, request, response] { return list_sessions(service_, *request, *response); });
+}
+
+grpc::ServerUnaryReactor* MeshingRpcs::DeleteSession(Context* context, const v1::DeleteSessionRequest* request,
+                                                     google::protobuf::Empty* /*response*/) {
+    return answer_now(context, RpcWatch(ledger_, "DeleteSession", request->session()),
+                      [this, request] { return service_.sessions().remove(request->session()); });
+}
+
+MeshingRpcs::EventReactor* MeshingRpcs::Improve(Context* /*context*/, const v1::ImproveRequest* request) {
+    return stream<MethodSource>("Improve", *request);
+}
+
+MeshingRpcs::EventReactor* MeshingRpcs::Control(Context* /*context*/, const v1::ControlRequest* request) {
+    return stream<MethodSource>("Control", *request);
+}
+
+MeshingRpcs::EventReactor* MeshingRpcs::SetResolution(Context* /*context*/, const v1::SetResolutionRequest* request) {
+    return stream<LevelSource>("SetResolution", *request);
+}
+
+grpc::ServerWriteReactor<v1::MeshChunk>* MeshingRpcs::DownloadMesh(Context* /*context*/, const v1::DownloadMeshRequest* request) {
+    return stream<DownloadSource>("DownloadMesh", *request);
+}
+
+grpc::ServerUnaryReactor* MeshingRpcs::GetQuality(Context* context, const v1::GetQualityRequest* request, v1::Quality* response) {
+    return answer_later(context, RpcWatch(ledger_, "GetQuality", request->session()),
+                        [this, request, response] { return get_quality(service_, *request, *response); });
+}
+
+}  // namespace vsplit::rpc

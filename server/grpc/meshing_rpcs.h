@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "grpc/rpc_ledger.h"
+#include "service/meshing_service.h"
+#include "vsplit/base/expected.h"
+#include "vsplit/v1/meshing.grpc.pb.h"
+
+namespace vsplit::rpc {
+
+/// The rpcs of vsplit.v1.Meshing, as the proto describes them, on top of the service. Nothing heavy is done on gRPC's threads.
+class MeshingRpcs final : public v1::Meshing::CallbackService {
+public:
+    /// Both must outlive the rpcs.
+    MeshingRpcs(service::MeshingService& service, RpcLedger& ledger) : service_(service), ledger_(ledger) {}
+
+    using Context = grpc::CallbackServerContext;
+    using UnaryReactor = grpc::ServerUnaryReactor;
+    using EventReactor = grpc::ServerWriteReactor<v1::ProgressiveEvent>;
+
+    UnaryReactor* CreateSession(Context* context, const v1::CreateSessionRequest* request, v1::Session* response) override;
+    grpc::ServerReadReactor<v1::UploadMeshRequest>* UploadMesh(Context* context, v1::Session* response) override;
+    UnaryReactor* GetSession(Context* context, const v1::GetSessionRequest* request, v1::Session* response) override;
+    UnaryReactor* ListSessions(Context* context, const v1::ListSessionsRequest* request,
+                               v1::ListSessionsResponse* response) override;
+    UnaryReactor* DeleteSession(Context* context, const v1::DeleteSessionRequest* request,
+                                google::protobuf::Empty* response) override;
+    EventReactor* Improve(Context* context, const v1::ImproveRequest* request) override;
+    EventReactor* Control(Context* context, const v1::ControlRequest* request) override;
+    EventReactor* SetResolution(Context* context, const v1::SetResolutionRequest* request) override;
+    grpc::ServerWriteReactor<v1::MeshChunk>* DownloadMesh(Context* context, const v1::DownloadMeshRequest* request) override;
+    UnaryReactor* GetQuality(Context* context, const v1::GetQualityRequest* request, v1::Quality* response) override;
+
+private:
+    using Answer = std::function<Status()>;
+
+    UnaryReactor* answer_now(Context* context, const RpcWatch& watch, const Answer& answer);
+    UnaryReactor* answer_later(Context* context, const RpcWatch& watch, Answer answer);
+
+    template <class Source, class Request>
+    auto* stream(const char* method, const Request& request);
+
+    service::MeshingService& service_;
+    RpcLedger& ledger_;
+};
+
+}  // namespace vsplit::rpc

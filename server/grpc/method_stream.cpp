@@ -1,0 +1,78 @@
+#include "grpc/method_stream.h"
+
+#include <utility>
+
+#include "grpc/replies.h"
+#include "wire/convert.h"
+#include "wire/error_table.h"
+
+namespace vsplit::rpc {
+
+using EventSourcePointer = std::unique_ptr<MessageSource<v1::ProgressiveEvent>>;
+
+Expected<EventSourcePointer> MethodSource::make(service::MeshingService& service, const v1::ImproveRequest& request,
+                                                const Wake& wake) {
+    return begin(service, request, wake);
+}
+
+Expected<EventSourcePointer> MethodSource::make(service::MeshingService& service, const v1::ControlRequest& request,
+                                                const Wake& wake) {
+    return begin(service, request, wake);
+}
+
+template <class Request>
+Expected<EventSourcePointer> MethodSource::begin(service::MeshingService& service, const Request& request, const Wake& wake) {
+    const auto options = wire::from_proto(request.options());
+    if (!options) return options.error();
+    auto news = std::make_shared<News>();
+    news->progress.put(wire::to_proto(Progress{"queued", 0, 0}));
+    service::JobEvents events;
+    events.on_progress = [news, wake](const Progress& progress) {
+        news->progress.put(wire::to_proto(progress));
+        wake();
+    };
+    events.on_done = [news, wake](const service::JobOutcome& outcome) {
+        news->outcome.put(outcome);
+        wake();
+    };
+    const service::MeshRef source{request.source().representation(), request.source().faces()};
+    Expected<service::RunningMethod> running = service.start(request.session(), {source, *options}, std::move(events));
+    if (!running) return running.error();
+    return EventSourcePointer(new MethodSource(*std::move(running), std::move(news)));
+}
+
+void MethodSource::cancel() {
+    running_.session->cancel(running_.job, {Cause::kCancelled, "the client is gone or its deadline has passed", ""});
+}
+
+MethodSource::Step MethodSource::next(v1::ProgressiveEvent& event, grpc::Status& end) {
+    if (ended_) return Step::kEnd;
+    return parts_ ? next_part(event) : next_news(event, end);
+}
+
+MethodSource::Step MethodSource::next_news(v1::ProgressiveEvent& event, grpc::Status& end) {
+    // In this order: what is told of the progress was put there before the outcome.
+    const std::optional<service::JobOutcome> outcome = news_->outcome.take();
+    if (!outcome) {
+        std::optional<v1::Progress> progress = news_->progress.take();
+        if (!progress) return Step::kWait;
+        *event.mutable_progress() = *std::move(progress);
+        return Step::kMessage;
+    }
+    if (!*outcome) {
+        end = wire::to_status(outcome->error());
+        return Step::kEnd;
+    }
+    result_ = **outcome;
+    parts_.emplace(service::plan_from_nothing(result_, result_->level_for(0)), RecordEncoding::kFloat64);
+    return next_part(event);
+}
+
+MethodSource::Step MethodSource::next_part(v1::ProgressiveEvent& event) {
+    if (parts_->next(event)) return Step::kMessage;
+    ended_ = true;
+    *event.mutable_representation() = to_proto(*result_);
+    return Step::kMessage;
+}
+
+}  // namespace vsplit::rpc

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "grpc/level_stream.h"
+#include "grpc/mailbox.h"
+#include "grpc/message_source.h"
+#include "service/meshing_service.h"
+#include "vsplit/v1/meshing.pb.h"
+
+namespace vsplit::rpc {
+
+/// Improve and Control: progress while the method waits and runs, then the result's parts, and last the representation. Of the
+/// progress only the newest is kept; a reader that falls behind misses some.
+class MethodSource final : public MessageSource<v1::ProgressiveEvent> {
+public:
+    /// Starts the method. \return what MeshingService::start returns, INVALID_OPTION.
+    [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
+                                                                       const v1::ImproveRequest& request, const Wake& wake);
+    [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
+                                                                       const v1::ControlRequest& request, const Wake& wake);
+
+    [[nodiscard]] Step next(v1::ProgressiveEvent& event, grpc::Status& end) override;
+
+    /// Cancels the method: nobody else could hear of its result.
+    void cancel() override;
+
+private:
+    struct News {
+        Mailbox<v1::Progress> progress;
+        Mailbox<service::JobOutcome> outcome;
+    };
+
+    template <class Request>
+    [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> begin(service::MeshingService& service, const Request& request,
+                                                                        const Wake& wake);
+
+    MethodSource(service::RunningMethod running, std::shared_ptr<News> news)
+        : running_(std::move(running)), news_(std::move(news)) {}
+
+    [[nodiscard]] Step next_news(v1::ProgressiveEvent& event, grpc::Status& end);
+    [[nodiscard]] Step next_part(v1::ProgressiveEvent& event);
+
+    const service::RunningMethod running_;
+    const std::shared_ptr<News> news_;
+    service::SessionSnapshot::RepresentationPointer result_;
+    std::optional<LevelParts> parts_;
+    bool ended_ = false;
+};
+
+}  // namespace vsplit::rpc

@@ -1,0 +1,43 @@
+#include "grpc/replies.h"
+
+#include <chrono>
+
+#include "wire/convert.h"
+#include "wire/representation.h"
+
+namespace vsplit::rpc {
+namespace {
+
+void set_time(std::chrono::system_clock::time_point time, google::protobuf::Timestamp& proto) {
+    const auto since = time.time_since_epoch();
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(since);
+    proto.set_seconds(seconds.count());
+    proto.set_nanos(static_cast<std::int32_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(since - seconds).count()));
+}
+
+}  // namespace
+
+v1::Session to_proto(const service::SessionSnapshot& session) {
+    v1::Session proto;
+    proto.set_id(session.id);
+    set_time(session.create_time, *proto.mutable_create_time());
+    set_time(session.expire_time, *proto.mutable_expire_time());
+    if (session.source) *proto.mutable_source() = wire::to_proto(session.source->report);
+    for (const auto& representation : session.representations) *proto.add_representations() = to_proto(*representation);
+    return proto;
+}
+
+v1::Representation to_proto(const service::Representation& representation) {
+    const service::MeshRef& source = representation.source();
+    return wire::describe(representation.id(), source.representation, source.faces, representation.options(),
+                          representation.result());
+}
+
+v1::Representation to_proto(const service::Representation& representation, std::size_t level) {
+    v1::Representation proto = to_proto(representation);
+    const std::uint32_t made_for = representation.result().faces;
+    if (representation.mrr().faces_at(level) != made_for) wire::describe_resolution(*representation.mesh(level), proto);
+    return proto;
+}
+
+}  // namespace vsplit::rpc

@@ -1,0 +1,112 @@
+#include "grpc/upload_stream.h"
+
+#include <span>
+#include <string>
+#include <utility>
+
+#include "grpc/replies.h"
+#include "service/guarded.h"
+#include "wire/convert.h"
+#include "wire/error_table.h"
+
+namespace vsplit::rpc {
+namespace {
+
+Error cut_off() { return {Cause::kCancelled, "the upload was cut off; the session is as it was", ""}; }
+
+Error shutting_down() { return {Cause::kUnavailable, "the server is shutting down", ""}; }
+
+Expected<service::UploadSettings> settings_of(const v1::UploadMeshRequest& first) {
+    const Expected<std::optional<MeshFormat>> format = wire::from_proto(first.format());
+    if (!format) return format.error();
+    if (Status repair = wire::check_repair(first.repair()); !repair) return repair.error();
+    service::UploadSettings settings{{*format, first.weld()}, std::nullopt};
+    if (first.has_size()) settings.size = first.size();
+    return settings;
+}
+
+Error changed(const char* field) {
+    return {
+        Cause::kInvalidOption,
+        std::string(field) + " is not what the first message of the upload said; give it there and leave it out or equal later",
+        field};
+}
+
+}  // namespace
+
+UploadStream::UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response)
+    : service_(service), watch_(std::move(watch)), response_(response) {
+    StartRead(&part_);
+}
+
+void UploadStream::OnReadDone(bool ok) {
+    // Whether the client has sent everything or is gone, a failed read does not tell, and the news of a cancel may come later. So
+    // something is sent: that fails on a stream which is closed already.
+    if (!ok) return StartSendInitialMetadata();
+    if (!service_.disk_errand([this] { read_on(); })) end(shutting_down());
+}
+
+void UploadStream::OnSendInitialMetadataDone(bool ok) {
+    if (!ok) return end(cut_off());
+    if (!service_.errand([this] { finish_upload(); })) end(shutting_down());
+}
+
+void UploadStream::finish_upload() {
+    end(service::guarded([this] { return commit(); }));
+}
+
+void UploadStream::read_on() {
+    const Status taken = service::guarded([this] { return take_part(); });
+    if (!taken) return end(taken);
+    StartRead(&part_);
+}
+
+Status UploadStream::take_part() {
+    const Status ready = upload_ ? check_repeated() : begin();
+    if (!ready) return ready;
+    return upload_->append(part_.offset(), std::as_bytes(std::span(part_.data())));
+}
+
+Status UploadStream::begin() {
+    watch_.set_session(part_.session());
+    if (Status open = watch_.admit(); !open) return open;
+    const Expected<service::UploadSettings> settings = settings_of(part_);
+    if (!settings) return settings.error();
+    Expected<service::Upload> upload = service_.begin_upload(part_.session(), *settings);
+    if (!upload) return upload.error();
+    upload_ = *std::move(upload);
+    first_.set_session(part_.session());
+    first_.set_format(part_.format());
+    first_.set_weld(part_.weld());
+    first_.set_repair(part_.repair());
+    if (part_.has_size()) first_.set_size(part_.size());
+    return Done{};
+}
+
+Status UploadStream::check_repeated() const {
+    if (!part_.session().empty() && part_.session() != first_.session()) return changed("session");
+    if (part_.format() != v1::MESH_FORMAT_UNSPECIFIED && part_.format() != first_.format()) return changed("format");
+    if (part_.weld() != 0 && part_.weld() != first_.weld()) return changed("weld");
+    if (part_.repair() != v1::REPAIR_UNSPECIFIED && part_.repair() != first_.repair()) return changed("repair");
+    if (part_.has_size() && (!first_.has_size() || part_.size() != first_.size())) return changed("size");
+    return Done{};
+}
+
+Status UploadStream::commit() {
+    if (!upload_) {
+        return Error{Cause::kInvalidOption, "the upload has no message; the first one names the session", "session"};
+    }
+    const Expected<service::SessionSnapshot> session = upload_->commit([this] { return !cancelled_; });
+    if (!session) return session.error();
+    *response_ = to_proto(*session);
+    return Done{};
+}
+
+void UploadStream::end(const Status& status) {
+    upload_.reset();  // the file goes now, not when gRPC has told the client
+    const grpc::Status told = status ? grpc::Status() : wire::to_status(status.error());
+    watch_.finished(told);
+    Finish(told);
+}
+
+}  // namespace vsplit::rpc

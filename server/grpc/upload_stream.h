@@ -1,0 +1,43 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <atomic>
+#include <optional>
+
+#include "grpc/rpc_ledger.h"
+#include "service/meshing_service.h"
+#include "vsplit/v1/meshing.grpc.pb.h"
+
+namespace vsplit::rpc {
+
+/// UploadMesh: one part at a time goes from the network to the disk; the next is read when it is there, so an upload of any size
+/// takes one part of memory. Reading the mesh is an errand. Deletes itself.
+class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest> {
+public:
+    UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response);
+
+    void OnReadDone(bool ok) override;
+    void OnSendInitialMetadataDone(bool ok) override;
+    void OnCancel() override { cancelled_ = true; }
+    void OnDone() override { delete this; }
+
+private:
+    [[nodiscard]] Status take_part();
+    [[nodiscard]] Status begin();
+    [[nodiscard]] Status check_repeated() const;
+    [[nodiscard]] Status commit();
+    void read_on();
+    void finish_upload();
+    void end(const Status& status);
+
+    service::MeshingService& service_;
+    RpcWatch watch_;
+    v1::Session* const response_;
+    v1::UploadMeshRequest part_;
+    v1::UploadMeshRequest first_;  // without its data
+    std::optional<service::Upload> upload_;
+    std::atomic<bool> cancelled_{false};
+};
+
+}  // namespace vsplit::rpc

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace vsplit::service {
+
+/// What a client may use up. Every limit is a flag of vsplitd; going beyond one is LIMIT_EXCEEDED and names it.
+struct Limits {
+    std::uint64_t upload_bytes = std::uint64_t{4} << 30;  ///< of one uploaded file
+    std::uint32_t faces = 20'000'000;                     ///< of an uploaded mesh
+    std::uint32_t faces_subdivided = 20'000'000;          ///< of a mesh after subdivision
+    std::uint32_t sessions = 1000;                        ///< at a time
+    std::uint32_t representations = 32;                   ///< of a session
+    std::uint32_t waiting_jobs = 8;                       ///< of a session, besides the one that runs
+};
+
+struct ServiceOptions {
+    Limits limits;
+    unsigned workers = 0;                                           ///< methods that run at a time; 0: one a core
+    unsigned threads = 1;                                           ///< threads of one method; 0: all cores
+    std::chrono::milliseconds session_ttl = std::chrono::hours(1);  ///< an unused session lives this long
+};
+
+}  // namespace vsplit::service

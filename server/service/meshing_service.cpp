@@ -1,0 +1,86 @@
+#include "service/meshing_service.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+#include <variant>
+
+namespace vsplit::service {
+namespace {
+
+constexpr unsigned kDiskThreads = 2;
+
+unsigned cores() { return std::max(1U, std::thread::hardware_concurrency()); }
+
+std::chrono::milliseconds sweep_interval(std::chrono::milliseconds ttl) {
+    return std::clamp<std::chrono::milliseconds>(ttl / 4, std::chrono::milliseconds(20), std::chrono::seconds(10));
+}
+
+}  // namespace
+
+MeshingService::MeshingService(const ServiceOptions& options)
+    : options_(options),
+      methods_(options.workers == 0 ? cores() : options.workers),
+      errands_(std::max(2U, cores())),
+      disk_(kDiskThreads),
+      sessions_(options, methods_),
+      sweeper_(sweep_interval(options.session_ttl), [this] { sessions_.remove_expired(); }) {}
+
+MeshingService::~MeshingService() { shutdown(); }
+
+Expected<SessionSnapshot> MeshingService::snapshot(std::string_view session) {
+    const Expected<std::shared_ptr<Session>> found = sessions_.find(session);
+    if (!found) return found.error();
+    return (*found)->snapshot();
+}
+
+Expected<SessionSnapshot> MeshingService::create_session() {
+    const Expected<std::shared_ptr<Session>> created = sessions_.create(nullptr);
+    if (!created) return created.error();
+    return (*created)->snapshot();
+}
+
+Expected<SessionSnapshot> MeshingService::create_session(std::span<const std::byte> bytes, const MeshSettings& settings) {
+    if (Status room = sessions_.require_room(); !room) return room.error();
+    if (Status ok = check_settings(settings); !ok) return ok.error();
+    Expected<std::shared_ptr<const SourceMesh>> source = read_source(bytes, settings, options_.limits);
+    if (!source) return source.error();
+    const Expected<std::shared_ptr<Session>> created = sessions_.create(*std::move(source));
+    if (!created) return created.error();
+    return (*created)->snapshot();
+}
+
+Expected<Upload> MeshingService::begin_upload(std::string_view session, const UploadSettings& settings) {
+    Expected<std::shared_ptr<Session>> found = sessions_.find(session);
+    if (!found) return found.error();
+    return Upload::begin(*std::move(found), settings, options_.limits);
+}
+
+Expected<RunningMethod> MeshingService::start(std::string_view session, const MethodRequest& request, JobEvents events) {
+    const Expected<std::shared_ptr<Session>> found = sessions_.find(session);
+    if (!found) return found.error();
+    if (Status ok = std::visit([](const auto& options) { return check_options(options); }, request.options); !ok)
+        return ok.error();
+    const auto make = [&](const SessionSnapshot& now) -> Expected<std::shared_ptr<Job>> {
+        Expected<PickedMesh> source = PickedMesh::pick(now, request.source);
+        if (!source) return source.error();
+        if (Status closed = source->require_closed(); !closed) return closed.error();
+        return std::shared_ptr<Job>(
+            std::make_shared<MethodJob>(*found, *std::move(source), request.options, options_, std::move(events)));
+    };
+    Expected<std::shared_ptr<Job>> job = (*found)->enqueue(make);
+    if (!job) return job.error();
+    return RunningMethod{*found, *std::move(job)};
+}
+
+void MeshingService::cancel_all() { sessions_.clear({Cause::kUnavailable, "the server is shutting down", ""}); }
+
+void MeshingService::shutdown() {
+    sweeper_.stop();
+    cancel_all();
+    methods_.shutdown();
+    errands_.shutdown();
+    disk_.shutdown();
+}
+
+}  // namespace vsplit::service

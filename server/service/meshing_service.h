@@ -1,0 +1,71 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "service/limits.h"
+#include "service/method_job.h"
+#include "service/session_store.h"
+#include "service/sweeper.h"
+#include "service/upload.h"
+#include "service/worker_pool.h"
+
+namespace vsplit::service {
+
+/// A method that was begun, to cancel it by.
+struct RunningMethod {
+    std::shared_ptr<Session> session;
+    std::shared_ptr<Job> job;
+};
+
+/// Everything a front door needs, whatever it speaks. Thread-safe. Functions marked heavy are for `errand`, the others return at
+/// once.
+class MeshingService {
+public:
+    explicit MeshingService(const ServiceOptions& options);
+    ~MeshingService();
+    MeshingService(const MeshingService&) = delete;
+    MeshingService& operator=(const MeshingService&) = delete;
+
+    [[nodiscard]] const ServiceOptions& options() const { return options_; }
+    [[nodiscard]] SessionStore& sessions() { return sessions_; }
+
+    /// Whoever calls it a use of the session. \return NOT_FOUND.
+    [[nodiscard]] Expected<SessionSnapshot> snapshot(std::string_view session);
+
+    /// An empty session. \return LIMIT_EXCEEDED.
+    [[nodiscard]] Expected<SessionSnapshot> create_session();
+
+    /// A session with a mesh, or none at all. Heavy. \return LIMIT_EXCEEDED, what `check_settings` and `read_source` return.
+    [[nodiscard]] Expected<SessionSnapshot> create_session(std::span<const std::byte> bytes, const MeshSettings& settings);
+
+    /// \return NOT_FOUND, what Upload::begin returns.
+    [[nodiscard]] Expected<Upload> begin_upload(std::string_view session, const UploadSettings& settings);
+
+    /// Queues a method. `events` hear of it from now on, perhaps before this returns.
+    /// \return NOT_FOUND, NOT_READY, LIMIT_EXCEEDED, what `check_options` and `require_closed_manifold` return; no event then.
+    [[nodiscard]] Expected<RunningMethod> start(std::string_view session, const MethodRequest& request, JobEvents events);
+
+    /// Runs something heavy, on a thread of its own kind: a method never keeps a reader waiting. False when shut down.
+    [[nodiscard]] bool errand(WorkerPool::Task task) { return errands_.submit(std::move(task)).has_value(); }
+
+    /// As `errand`, for what waits for the disk.
+    [[nodiscard]] bool disk_errand(WorkerPool::Task task) { return disk_.submit(std::move(task)).has_value(); }
+
+    /// Forgets all sessions and cancels their methods, whose events are called.
+    void cancel_all();
+
+    /// cancel_all, and waits for the last worker. No event comes afterwards.
+    void shutdown();
+
+private:
+    const ServiceOptions options_;
+    WorkerPool methods_;
+    WorkerPool errands_;
+    WorkerPool disk_;
+    SessionStore sessions_;
+    Sweeper sweeper_;
+};
+
+}  // namespace vsplit::service

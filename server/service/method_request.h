@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "vsplit/method/method_options.h"
+
+namespace vsplit::service {
+
+/// A mesh of a session: the upload, or one of its representations at a resolution.
+struct MeshRef {
+    std::string representation;  ///< empty: the upload
+    std::uint32_t faces = 0;     ///< 0: the resolution the representation was made for; the upload has but one
+};
+
+/// Which of the two methods, by what it may be asked for.
+using MethodOptions = std::variant<ImproveOptions, ControlOptions>;
+
+/// A method to run in a session.
+struct MethodRequest {
+    MeshRef source;
+    MethodOptions options;
+};
+
+}  // namespace vsplit::service

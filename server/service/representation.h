@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "service/lru_cache.h"
+#include "service/method_request.h"
+#include "vsplit/mesh/triangle_mesh.h"
+#include "vsplit/method/method_result.h"
+#include "vsplit/quality/mesh_quality.h"
+
+namespace vsplit::service {
+
+/// A finished representation of a session. What it says never changes, so readers share it without waiting; the meshes of the
+/// levels asked for last are kept. Thread-safe.
+class Representation {
+public:
+    /// `source` and `options` as used, defaults filled in.
+    Representation(std::string id, MeshRef source, MethodOptions options, MethodResult result);
+
+    [[nodiscard]] const std::string& id() const { return id_; }
+    [[nodiscard]] const MeshRef& source() const { return source_; }
+    [[nodiscard]] const MethodOptions& options() const { return options_; }
+    [[nodiscard]] const MethodResult& result() const { return result_; }
+    [[nodiscard]] const MultiresMesh& mrr() const { return result_.mrr; }
+
+    /// The level to use for `faces`: the nearest that exists; 0 means the resolution it was made for. O(1).
+    [[nodiscard]] std::size_t level_for(std::uint32_t faces) const;
+
+    /// Heavy unless cached: O(level). \pre level <= mrr().splits.size().
+    [[nodiscard]] std::shared_ptr<const TriangleMesh> mesh(std::size_t level) const;
+
+    /// Heavy: O(level + faces log faces). \pre as for `mesh`.
+    [[nodiscard]] Quality quality(std::size_t level) const;
+
+private:
+    const std::string id_;
+    const MeshRef source_;
+    const MethodOptions options_;
+    const MethodResult result_;
+    mutable LruCache<TriangleMesh> meshes_;
+};
+
+}  // namespace vsplit::service

@@ -1,0 +1,54 @@
+#include "service/resolution.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace vsplit::service {
+namespace {
+
+Expected<std::size_t> level_held(const MultiresMesh& mrr, std::uint32_t faces_held) {
+    const std::size_t level = mrr.level_for(faces_held);
+    if (mrr.faces_at(level) == faces_held) return level;
+    return Error{Cause::kInvalidOption,
+                 "faces_held is " + std::to_string(faces_held) +
+                     ", which is no resolution of this representation; the nearest is " + std::to_string(mrr.faces_at(level)) +
+                     " (it has " + std::to_string(mrr.faces_min()) + " to " + std::to_string(mrr.faces_max()) +
+                     " in steps of 2; 0 means that nothing is held)",
+                 "faces_held"};
+}
+
+Status check_resume(const MultiresMesh& mrr, std::uint32_t resume_from) {
+    if (resume_from <= mrr.splits.size()) return Done{};
+    return Error{Cause::kInvalidOption,
+                 "resume_from is " + std::to_string(resume_from) + "; this representation has " +
+                     std::to_string(mrr.splits.size()) + " records, so at most that is accepted",
+                 "resume_from"};
+}
+
+}  // namespace
+
+Expected<ResolutionPlan> plan_resolution(const SessionSnapshot& session, const ResolutionRequest& request) {
+    auto found =
+        request.representation.empty() ? newest_representation(session) : find_representation(session, request.representation);
+    if (!found) return found.error();
+    const MultiresMesh& mrr = (*found)->mrr();
+    if (Status ok = check_resume(mrr, request.resume_from); !ok) return ok.error();
+    ResolutionPlan plan = plan_from_nothing(*found, mrr.level_for(request.faces));
+    if (request.faces_held != 0) {
+        const Expected<std::size_t> held = level_held(mrr, request.faces_held);
+        if (!held) return held.error();
+        plan.first_split = *held;
+    }
+    // A record comes after the whole base mesh, so who has one has the base mesh too.
+    plan.with_base = request.faces_held == 0 && request.resume_from == 0;
+    plan.first_split = std::max<std::size_t>(plan.first_split, request.resume_from);
+    plan.last_split = std::max(plan.first_split, plan.level);
+    return plan;
+}
+
+ResolutionPlan plan_from_nothing(SessionSnapshot::RepresentationPointer representation, std::size_t level) {
+    return {std::move(representation), level, true, 0, level};
+}
+
+}  // namespace vsplit::service

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "service/session.h"
+
+namespace vsplit::service {
+
+/// Some sessions in order of creation, and where the rest begins.
+struct SessionPage {
+    std::vector<SessionSnapshot> sessions;
+    std::string next_page_token;  ///< empty on the last page
+};
+
+/// The sessions of a server, in memory. Thread-safe.
+class SessionStore {
+public:
+    static constexpr std::uint32_t kDefaultPage = 100;
+    static constexpr std::uint32_t kLargestPage = 1000;
+
+    SessionStore(const ServiceOptions& options, WorkerPool& workers) : options_(options), workers_(workers) {}
+
+    /// Whether `create` has room. \return LIMIT_EXCEEDED.
+    [[nodiscard]] Status require_room();
+
+    /// \return LIMIT_EXCEEDED. `source` may be null.
+    [[nodiscard]] Expected<std::shared_ptr<Session>> create(std::shared_ptr<const SourceMesh> source);
+
+    /// A use of the session: it lives its full time again. \return NOT_FOUND.
+    [[nodiscard]] Expected<std::shared_ptr<Session>> find(std::string_view id);
+
+    /// Closes and forgets the session. \return NOT_FOUND.
+    [[nodiscard]] Status remove(std::string_view id);
+
+    /// `page_size` 0 means kDefaultPage. Looking at the list is no use of the sessions in it.
+    /// \return INVALID_OPTION for a token that is none of ours. O(page + log sessions).
+    [[nodiscard]] Expected<SessionPage> list(std::uint32_t page_size, std::string_view page_token) const;
+
+    /// Closes and forgets those nobody has used for their time. Returns how many. O(sessions).
+    std::size_t remove_expired();
+
+    /// Closes and forgets all.
+    void clear(const Error& why);
+
+private:
+    using Sessions = std::map<std::uint64_t, std::shared_ptr<Session>>;
+
+    [[nodiscard]] Status require_room_locked() const;
+    [[nodiscard]] std::vector<std::shared_ptr<Session>> take_expired();
+
+    const ServiceOptions options_;
+    WorkerPool& workers_;
+    mutable std::mutex mutex_;
+    Sessions sessions_;  // by number
+    std::unordered_map<std::string, std::uint64_t> numbers_;
+    std::uint64_t last_number_ = 0;
+};
+
+}  // namespace vsplit::service

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "service/limits.h"
+#include "vsplit/base/expected.h"
+#include "vsplit/io/mesh_format.h"
+#include "vsplit/mesh/inspect.h"
+#include "vsplit/mesh/triangle_mesh.h"
+
+namespace vsplit::service {
+
+/// How an uploaded file is to be read.
+struct MeshSettings {
+    std::optional<MeshFormat> format;  ///< told from the bytes when empty
+    double weld = 0;                   ///< length, model units; 0 merges exactly equal vertices
+};
+
+/// Whether `settings` can be obeyed, before any byte is there. \return INVALID_OPTION. O(1).
+[[nodiscard]] Status check_settings(const MeshSettings& settings);
+
+/// What a session's methods begin with: a mesh that could be read, open and non-manifold ones included. Never changes.
+struct SourceMesh {
+    std::shared_ptr<const TriangleMesh> mesh;
+    MeshReport report;
+};
+
+/// Reads, welds and inspects. Heavy: for a worker, not for a thread that others wait for.
+/// \return what `read_mesh` returns; LIMIT_EXCEEDED names the server's limit.
+[[nodiscard]] Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byte> bytes,
+                                                                      const MeshSettings& settings, const Limits& limits);
+
+}  // namespace vsplit::service

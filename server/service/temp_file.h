@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "vsplit/base/expected.h"
+
+namespace vsplit::service {
+
+/// The bytes of a file, mapped for reading. Movable; unmaps at its end.
+class FileMapping {
+public:
+    FileMapping() = default;
+    FileMapping(void* address, std::size_t size) : address_(address), size_(size) {}
+    ~FileMapping();
+    FileMapping(FileMapping&& other) noexcept;
+    FileMapping& operator=(FileMapping&& other) noexcept;
+
+    [[nodiscard]] std::span<const std::byte> bytes() const { return {static_cast<const std::byte*>(address_), size_}; }
+
+private:
+    void* address_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+/// A file without a name, in $TMPDIR or /tmp: it is gone with the process, however that ends.
+class TempFile {
+public:
+    /// \return FILE_ACCESS.
+    [[nodiscard]] static Expected<TempFile> create();
+
+    ~TempFile();
+    TempFile(TempFile&& other) noexcept;
+    TempFile& operator=(TempFile&& other) noexcept;
+
+    /// \return FILE_ACCESS, e.g. when the disk is full.
+    [[nodiscard]] Status append(std::span<const std::byte> bytes);
+
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+
+    /// The mapping outlives the TempFile if need be. \return FILE_ACCESS.
+    [[nodiscard]] Expected<FileMapping> map() const;
+
+private:
+    explicit TempFile(int descriptor) : descriptor_(descriptor) {}
+
+    int descriptor_ = -1;
+    std::uint64_t size_ = 0;
+};
+
+}  // namespace vsplit::service

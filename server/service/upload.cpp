@@ -1,0 +1,66 @@
+#include "service/upload.h"
+
+#include <string>
+#include <utility>
+
+namespace vsplit::service {
+namespace {
+
+Error too_large(std::uint64_t bytes, const Limits& limits, const char* field) {
+    return {Cause::kLimitExceeded,
+            "the file has " + std::to_string(bytes) + " bytes or more; the server's limit max_upload_bytes is " +
+                std::to_string(limits.upload_bytes),
+            field};
+}
+
+}  // namespace
+
+Upload::Upload(std::shared_ptr<Session> session, const UploadSettings& settings, const Limits& limits, TempFile file)
+    : session_(std::move(session)), settings_(settings), limits_(limits), file_(std::move(file)) {}
+
+Expected<Upload> Upload::begin(std::shared_ptr<Session> session, const UploadSettings& settings, const Limits& limits) {
+    if (settings.size > limits.upload_bytes) return too_large(*settings.size, limits, "size");
+    if (Status ok = check_settings(settings.mesh); !ok) return ok.error();
+    if (Status idle = session->require_idle(); !idle) return idle.error();
+    Expected<TempFile> file = TempFile::create();
+    if (!file) return file.error();
+    return Upload(std::move(session), settings, limits, *std::move(file));
+}
+
+Status Upload::append(std::uint64_t offset, std::span<const std::byte> bytes) {
+    session_->touch();
+    const std::uint64_t expected = file_.size();
+    if (offset != expected) {
+        return Error{Cause::kOutOfOrder,
+                     "offset is " + std::to_string(offset) + ", expected is " + std::to_string(expected) +
+                         ", the number of bytes received before",
+                     "offset"};
+    }
+    const std::uint64_t total = expected + bytes.size();
+    if (total > limits_.upload_bytes) return too_large(total, limits_, "data");
+    if (settings_.size && total > *settings_.size) {
+        return Error{Cause::kMalformedInput,
+                     "at least " + std::to_string(total) + " bytes came, " + std::to_string(*settings_.size) + " were declared",
+                     "size"};
+    }
+    return file_.append(bytes);
+}
+
+Expected<SessionSnapshot> Upload::commit(const std::function<bool()>& still_wanted) const {
+    if (settings_.size && file_.size() < *settings_.size) {
+        return Error{Cause::kTruncatedInput,
+                     "the upload ended after " + std::to_string(file_.size()) + " bytes, " + std::to_string(*settings_.size) +
+                         " were declared",
+                     "size"};
+    }
+    const Expected<FileMapping> mapped = file_.map();
+    if (!mapped) return mapped.error();
+    Expected<std::shared_ptr<const SourceMesh>> source = read_source(mapped->bytes(), settings_.mesh, limits_);
+    if (!source) return source.error();
+    if (!still_wanted()) return Error{Cause::kCancelled, "the upload was cut off; the session is as it was", ""};
+    if (Status set = session_->set_source(*source); !set) return set.error();
+    session_->touch();
+    return session_->snapshot();
+}
+
+}  // namespace vsplit::service

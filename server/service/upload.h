@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "service/session.h"
+#include "service/source_mesh.h"
+#include "service/temp_file.h"
+
+namespace vsplit::service {
+
+/// What the first part of an upload says of the whole.
+struct UploadSettings {
+    MeshSettings mesh;
+    std::optional<std::uint64_t> size;  ///< bytes of the whole file
+};
+
+/// A mesh file on its way into a session, kept in an unnamed temporary file meanwhile. The session changes with a `commit` that
+/// succeeds and by nothing else; of two uploads at once the one that commits last stays. Not thread-safe.
+class Upload {
+public:
+    /// \return LIMIT_EXCEEDED for a declared size over the limit, INVALID_OPTION (weld), BUSY, NOT_FOUND, FILE_ACCESS.
+    [[nodiscard]] static Expected<Upload> begin(std::shared_ptr<Session> session, const UploadSettings& settings,
+                                                const Limits& limits);
+
+    /// Takes the next bytes; writes to the disk. \return OUT_OF_ORDER when `offset` is not the number of bytes taken so far;
+    /// LIMIT_EXCEEDED; MALFORMED_INPUT for more than the declared size; FILE_ACCESS.
+    [[nodiscard]] Status append(std::uint64_t offset, std::span<const std::byte> bytes);
+
+    /// Reads the mesh and puts it into the session, provided that `still_wanted()` when it has been read. Heavy.
+    /// \return TRUNCATED_INPUT for less than the declared size; what `read_source` and Session::set_source return; CANCELLED.
+    [[nodiscard]] Expected<SessionSnapshot> commit(const std::function<bool()>& still_wanted) const;
+
+private:
+    Upload(std::shared_ptr<Session> session, const UploadSettings& settings, const Limits& limits, TempFile file);
+
+    std::shared_ptr<Session> session_;
+    UploadSettings settings_;
+    Limits limits_;
+    TempFile file_;
+};
+
+}  // namespace vsplit::service

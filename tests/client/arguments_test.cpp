@@ -1,0 +1,124 @@
+#include "cli/arguments.h"
+
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+#include <vector>
+
+namespace vsplit::cli {
+namespace {
+
+std::variant<Arguments, int> parsed(std::initializer_list<const char*> words) {
+    std::vector<const char*> argv{"vsplit"};
+    argv.insert(argv.end(), words);
+    return parse(static_cast<int>(argv.size()), argv.data());
+}
+
+Arguments arguments(std::initializer_list<const char*> words) {
+    const auto result = parsed(words);
+    EXPECT_TRUE(std::holds_alternative<Arguments>(result));
+    return std::holds_alternative<Arguments>(result) ? std::get<Arguments>(result) : Arguments();
+}
+
+TEST(ArgumentsTest, ReadsImproveWhole) {
+    const Arguments a = arguments({"improve",
+                                   "part.stl",
+                                   "-o",
+                                   "a.vsplit",
+                                   "-o",
+                                   "b.stl",
+                                   "--subdivide",
+                                   "8",
+                                   "--tolerance",
+                                   "1e-3",
+                                   "--faces",
+                                   "30000",
+                                   "--faces-min",
+                                   "100",
+                                   "--feature-angle",
+                                   "30",
+                                   "--feature-weight",
+                                   "5",
+                                   "--mode",
+                                   "strict",
+                                   "--weld",
+                                   "0.5",
+                                   "--repair",
+                                   "none",
+                                   "--threads",
+                                   "2",
+                                   "--json",
+                                   "--no-progress",
+                                   "--max-deviation",
+                                   "2"});
+    EXPECT_EQ(a.verb, Verb::kImprove);
+    EXPECT_EQ(a.input, "part.stl");
+    EXPECT_EQ(a.outputs, (std::vector<std::string>{"a.vsplit", "b.stl"}));
+    EXPECT_EQ(a.improve.subdivision_size, 8.0);
+    EXPECT_EQ(a.improve.tolerance, 1e-3);
+    EXPECT_EQ(a.improve.faces, 30000U);
+    EXPECT_EQ(asked_faces(a), 30000U);
+    EXPECT_EQ(a.improve.faces_min, 100U);
+    EXPECT_EQ(a.improve.feature_angle, 30.0);
+    EXPECT_EQ(a.improve.feature_weight, 5.0);
+    EXPECT_EQ(a.improve.max_deviation, 2.0);
+    EXPECT_EQ(a.improve.mode, Mode::kStrict);
+    EXPECT_EQ(a.weld, 0.5);
+    EXPECT_EQ(a.repair, v1::NONE);
+    EXPECT_EQ(a.threads, 2U);
+    EXPECT_TRUE(a.json);
+    EXPECT_TRUE(a.no_progress);
+}
+
+TEST(ArgumentsTest, ReadsControlWhole) {
+    const Arguments a =
+        arguments({"control",        "-",   "--subdivisions", "2",        "--min-stretch", "0.25", "--max-size",       "4",
+                   "--max-valence",  "9",   "--server",       "h:1",      "--session",     "s",    "--representation", "r",
+                   "--source-faces", "500", "--mode",         "extended", "--repair",      "full"});
+    EXPECT_EQ(a.verb, Verb::kControl);
+    EXPECT_EQ(a.control.subdivisions, 2U);
+    EXPECT_EQ(a.control.min_stretch, 0.25);
+    EXPECT_EQ(a.control.max_size, 4.0);
+    EXPECT_EQ(a.control.max_valence, 9U);
+    EXPECT_EQ(a.control.mode, Mode::kExtended);
+    EXPECT_EQ(a.repair, v1::FULL);
+    EXPECT_EQ(a.server, "h:1");
+    EXPECT_EQ(a.session, "s");
+    EXPECT_EQ(a.representation, "r");
+    EXPECT_EQ(a.source_faces, 500U);
+    EXPECT_FALSE(a.control.faces);
+}
+
+TEST(ArgumentsTest, NegativeNumbersReachTheEnginesOwnCheck) {
+    EXPECT_EQ(arguments({"improve", "a.stl", "--tolerance", "-1"}).improve.tolerance, -1.0);
+    EXPECT_EQ(arguments({"info", "a.stl", "--weld=-1"}).weld, -1.0);
+}
+
+TEST(ArgumentsTest, RefusesWithStatusOne) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(std::get<int>(parsed({})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"destroy", "a.stl"})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"info", "a.stl", "b.stl"})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"info", "a.stl", "--tolerance", "1"})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "--tolerance", "much"})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "--faces", "-5"})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "--faces", "99999999999"})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "--mode", "loose"})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "--threads", "1025"})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "-o"})), 1);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("accepted is one of control, improve, info, quality, resolution"), std::string::npos) << said;
+    EXPECT_NE(said.find("--mode: 'loose' is given; accepted is one of extended, strict"), std::string::npos) << said;
+    EXPECT_NE(said.find("--faces: '-5' is given; accepted is a whole number"), std::string::npos) << said;
+}
+
+TEST(ArgumentsTest, TellsRepresentationFilesByTheirName) {
+    EXPECT_TRUE(is_representation_file("a.vsplit"));
+    EXPECT_TRUE(is_representation_file("dir/A.VSPLIT"));
+    EXPECT_FALSE(is_representation_file("a.stl"));
+    EXPECT_FALSE(is_representation_file("vsplit"));
+    EXPECT_FALSE(is_representation_file(""));
+}
+
+}  // namespace
+}  // namespace vsplit::cli

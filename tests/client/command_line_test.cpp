@@ -1,0 +1,371 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): kill is POSIX
+#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): pseudo-terminals are POSIX
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/client/command.h"
+#include "tests/core/meshes.h"
+#include "vsplit/io/read_mesh.h"
+#include "vsplit/io/write_mesh.h"
+#include "vsplit/mrr/mrr_file.h"
+#include "vsplit/mrr/progressive_mesh.h"
+#include "vsplit/v1/meshing.pb.h"
+#include "wire/json.h"
+
+namespace vsplit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::seconds;
+using test::Command;
+using test::CommandResult;
+
+class CommandLineTest : public testing::Test {
+protected:
+    [[nodiscard]] std::string file(const std::string& name) const { return (directory_.path() / name).string(); }
+
+    /// A mesh of this name, written in the format of its extension.
+    std::string mesh_file(const std::string& name, const TriangleMesh& mesh) {
+        const std::string path = file(name);
+        EXPECT_TRUE(write_mesh_file(mesh, *format_by_extension(name), path));
+        return path;
+    }
+
+    static std::vector<std::string> words(std::initializer_list<std::string> arguments) {
+        std::vector<std::string> all{VSPLIT_BINARY};
+        all.insert(all.end(), arguments);
+        return all;
+    }
+
+    static CommandResult run(std::initializer_list<std::string> arguments) { return test::run_command(words(arguments)); }
+
+    /// A file made by improving a part of many flat faces.
+    std::string improved_file() {
+        const std::string path = file("improved.vsplit");
+        const CommandResult made =
+            run({"improve", mesh_file("frame.off", test::cube_frame()), "--subdivide", "0.3", "--faces", "1000", "-o", path});
+        EXPECT_EQ(made.exit_status, 0) << made.err;
+        return path;
+    }
+
+    test::TempDirectory directory_;
+};
+
+template <class Message>
+Message json_of(const CommandResult& result) {
+    Message message;
+    const Status read = wire::from_json(result.out, message);
+    EXPECT_TRUE(read) << result.out << result.err;
+    return message;
+}
+
+TEST_F(CommandLineTest, InfoDescribesAMesh) {
+    const std::string torus = mesh_file("torus.obj", test::torus(20, 10));
+    const CommandResult told = run({"info", torus});
+    EXPECT_EQ(told.exit_status, 0);
+    EXPECT_EQ(told.err, "");
+    EXPECT_NE(told.out.find("genus             1\n"), std::string::npos) << told.out;
+    const auto summary = json_of<v1::MeshSummary>(run({"info", torus, "--json"}));
+    EXPECT_EQ(summary.faces(), 400U);
+    EXPECT_EQ(summary.vertices(), 200U);
+    EXPECT_EQ(summary.genus(), 1);
+    EXPECT_EQ(summary.quality().worst_faces_size(), 0);
+}
+
+TEST_F(CommandLineTest, QualityListsTheWorstFaces) {
+    const std::string slivers = mesh_file("slivers.ply", test::sliver_cylinder(40, 10));
+    const auto summary = json_of<v1::MeshSummary>(run({"quality", slivers, "--json"}));
+    ASSERT_EQ(summary.quality().worst_faces_size(), 20);
+    EXPECT_EQ(summary.quality().worst_faces(0).stretch(), summary.quality().stretch_min());
+    const CommandResult told = run({"quality", slivers});
+    EXPECT_NE(told.out.find("---- 0.2 --"), std::string::npos) << told.out;
+    EXPECT_NE(told.out.find("worst face"), std::string::npos) << told.out;
+}
+
+TEST_F(CommandLineTest, ImproveWritesEveryOutput) {
+    const std::string input = mesh_file("frame.off", test::cube_frame());
+    const CommandResult result = run({"improve", input, "--subdivide", "0.3", "--faces", "1000", "--json", "-o", file("a.vsplit"),
+                                      "-o", file("a.stl"), "-o", file("a.obj"), "-o", file("a.ply"), "-o", file("a.off")});
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const auto made = json_of<v1::Representation>(result);
+    EXPECT_EQ(made.method(), v1::IMPROVE);
+    EXPECT_EQ(made.source().faces(), test::cube_frame().face_count());
+    EXPECT_EQ(made.improve_options().subdivision_size(), 0.3);
+    EXPECT_TRUE(made.improve_options().has_tolerance());  // defaults are filled in
+    EXPECT_EQ(made.quality().faces(), made.faces());
+    const Expected<StoredMrr> stored = load_mrr(file("a.vsplit"));
+    ASSERT_TRUE(stored);
+    EXPECT_EQ(stored->faces, made.faces());
+    const TriangleMesh mesh = mesh_at(stored->mrr, stored->mrr.level_for(stored->faces));
+    for (const char* name : {"a.stl", "a.obj", "a.ply", "a.off"}) {
+        EXPECT_EQ(test::file_content(file(name)), write_mesh(mesh, *format_by_extension(name))) << name;
+    }
+}
+
+TEST_F(CommandLineTest, RunsAreIdentical) {
+    const std::string input = mesh_file("frame.off", test::cube_frame());
+    for (const char* threads : {"1", "2"}) {
+        const CommandResult made =
+            run({"improve", input, "--subdivide", "0.3", "--threads", threads, "-o", file(std::string(threads) + ".ply")});
+        EXPECT_EQ(made.exit_status, 0) << made.err;
+    }
+    EXPECT_FALSE(test::file_content(file("1.ply")).empty());
+    EXPECT_EQ(test::file_content(file("1.ply")), test::file_content(file("2.ply")));
+}
+
+TEST_F(CommandLineTest, ResolutionGivesTheMeshThatTheRecordsGive) {
+    const std::string improved = improved_file();
+    const Expected<StoredMrr> stored = load_mrr(improved);
+    ASSERT_TRUE(stored);
+    for (const std::uint32_t faces : {stored->mrr.faces_max(), stored->faces, stored->mrr.faces_min() + 4}) {
+        const auto shown = json_of<v1::Representation>(
+            run({"resolution", improved, "--faces", std::to_string(faces), "-o", file("r.ply"), "--json"}));
+        EXPECT_EQ(shown.faces(), faces);
+        EXPECT_EQ(shown.quality().faces(), faces);
+        EXPECT_EQ(test::file_content(file("r.ply")),
+                  write_mesh(mesh_at(stored->mrr, stored->mrr.level_for(faces)), MeshFormat::kPlyBinary));
+    }
+}
+
+TEST_F(CommandLineTest, ResolutionOutOfRangeSaysWhichWasTaken) {
+    const std::string improved = improved_file();
+    const CommandResult result = run({"resolution", improved, "--faces", "100000000", "--json"});
+    EXPECT_EQ(result.exit_status, 0);
+    const auto shown = json_of<v1::Representation>(result);
+    EXPECT_EQ(shown.faces(), shown.faces_max());
+    EXPECT_NE(result.err.find("is the nearest resolution"), std::string::npos) << result.err;
+}
+
+TEST_F(CommandLineTest, ResolutionStoresTheRepresentationAtAnother) {
+    const std::string improved = improved_file();
+    ASSERT_EQ(run({"resolution", improved, "--faces", "500", "-o", file("at500.vsplit")}).exit_status, 0);
+    const Expected<StoredMrr> before = load_mrr(improved);
+    const Expected<StoredMrr> after = load_mrr(file("at500.vsplit"));
+    ASSERT_TRUE(before && after);
+    EXPECT_EQ(before->mrr, after->mrr);
+    EXPECT_EQ(json_of<v1::Representation>(run({"info", file("at500.vsplit"), "--json"})).faces(), after->faces);
+    EXPECT_NE(before->faces, after->faces);
+}
+
+TEST_F(CommandLineTest, InfoAndQualityDescribeAStoredRepresentation) {
+    const std::string improved = improved_file();
+    const auto info = json_of<v1::Representation>(run({"info", improved, "--json"}));
+    EXPECT_EQ(info.method(), v1::IMPROVE);
+    EXPECT_EQ(info.improve_options().subdivision_size(), 0.3);
+    EXPECT_EQ(info.quality().worst_faces_size(), 0);
+    const auto quality = json_of<v1::Representation>(run({"quality", improved, "--faces", "800", "--json"}));
+    EXPECT_EQ(quality.faces(), 800U);
+    EXPECT_EQ(quality.quality().worst_faces_size(), 20);
+}
+
+TEST_F(CommandLineTest, ControlWorksOnAStoredRepresentation) {
+    const std::string improved = improved_file();
+    const CommandResult result = run({"control", improved, "--source-faces", "700", "--subdivisions", "1", "--min-stretch",
+                                      "0.05", "--json", "-o", file("c.stl")});
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    const auto made = json_of<v1::Representation>(result);
+    EXPECT_EQ(made.method(), v1::CONTROL);
+    EXPECT_EQ(made.source().faces(), 700U);
+    EXPECT_EQ(made.faces_max(), 2800U);
+    EXPECT_TRUE(made.bounds_satisfied());
+    EXPECT_TRUE(fs::exists(file("c.stl")));
+}
+
+TEST_F(CommandLineTest, ABoundThatCannotBeMetIsStatusTwo) {
+    const std::string input = mesh_file("slivers.off", test::sliver_cylinder(24, 5));
+    const CommandResult result = run({"control", input, "--min-stretch", "0.99", "--json", "-o", file("c.obj")});
+    EXPECT_EQ(result.exit_status, 2);
+    const auto made = json_of<v1::Representation>(result);
+    EXPECT_FALSE(made.bounds_satisfied());
+    ASSERT_EQ(made.violations_size(), 1);
+    EXPECT_NE(result.err.find("bound not met: min_stretch 0.99: "), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(made.violations(0).reason()), std::string::npos) << result.err;
+    EXPECT_TRUE(fs::exists(file("c.obj")));  // done all the same
+}
+
+TEST_F(CommandLineTest, FormatOverridesTheExtension) {
+    const std::string cube = mesh_file("cube.obj", test::cube());
+    ASSERT_EQ(run({"info", cube, "-o", file("x.dat"), "--format", "ply-ascii"}).exit_status, 0);
+    EXPECT_TRUE(test::file_content(file("x.dat")).starts_with("ply\nformat ascii"));
+    EXPECT_EQ(run({"info", cube, "-o", file("x.dat"), "--format", "docx"}).exit_status, 1);
+}
+
+TEST_F(CommandLineTest, WeldClosesSmallGaps) {
+    TriangleMesh gapped = test::cube();
+    gapped.positions.push_back(gapped.positions[gapped.faces[0][0]] + Vec3(1e-6, 0, 0));
+    gapped.faces[0][0] = gapped.vertex_count() - 1;
+    const std::string input = mesh_file("gapped.off", gapped);
+    EXPECT_FALSE(json_of<v1::MeshSummary>(run({"info", input, "--json"})).closed());
+    EXPECT_TRUE(json_of<v1::MeshSummary>(run({"info", input, "--weld", "1e-5", "--json"})).closed());
+}
+
+/// A line, and what stderr must say to it.
+struct Refusal {
+    std::vector<std::string> arguments;
+    std::string said;
+};
+
+TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
+    const std::string cube = mesh_file("cube.obj", test::cube());
+    TriangleMesh open_mesh = test::cube();
+    open_mesh.faces.pop_back();
+    const std::string open = mesh_file("open.obj", open_mesh);
+    const std::vector<Refusal> refusals{
+        {{"improve", cube, "--tolerance", "-1"}, "INVALID_OPTION: tolerance is -1"},
+        {{"improve", cube, "--tolerance", "nan"}, "(--tolerance)"},
+        {{"improve", cube, "--subdivide", "0"}, "(--subdivide)"},
+        {{"improve", cube, "--subdivide", "1e-6"}, "LIMIT_EXCEEDED"},
+        {{"improve", cube, "--faces", "3"}, "(--faces)"},
+        {{"improve", cube, "--faces", "100", "--faces-min", "200"}, "(--faces-min)"},
+        {{"improve", cube, "--feature-angle", "181"}, "(--feature-angle)"},
+        {{"improve", cube, "--mode", "extended"}, "UNSUPPORTED"},
+        {{"improve", cube, "--max-deviation", "1"}, "UNSUPPORTED"},
+        {{"improve", cube, "--repair", "safe"}, "UNSUPPORTED"},
+        {{"info", cube, "--repair", "full"}, "UNSUPPORTED"},
+        {{"control", cube, "--min-stretch", "1.5"}, "(--min-stretch)"},
+        {{"control", cube, "--max-valence", "5"}, "(--max-valence)"},
+        {{"control", cube, "--subdivisions", "13"}, "(--subdivisions)"},
+        {{"info", cube, "--weld", "-1"}, "(--weld)"},
+        {{"improve", open}, "OPEN_MESH"},
+        {{"improve", file("none.stl")}, "NOT_FOUND"},
+        {{"info", file("none.vsplit")}, "NOT_FOUND"},
+        {{"info", directory_.path().string()}, "FILE_ACCESS"},
+        {{"info"}, "(IN)"},
+        {{"info", cube, "--faces", "10"}, "(--faces)"},
+        {{"improve", cube, "--source-faces", "10"}, "(--source-faces)"},
+        {{"resolution", cube}, "no .vsplit file"},
+        {{"info", cube, "-o", file("cube.vsplit")}, "only a mesh"},
+        {{"info", cube, "-o", file("cube.docx")}, "UNKNOWN_FORMAT"},
+        {{"info", cube, "-o", file("no/cube.stl")}, "NOT_FOUND"},
+        {{"info", cube, "-o", directory_.path().string() + "/.stl/"}, "NOT_FOUND"},
+        {{"info", cube, "--session", "s"}, "--server"},
+        {{"info", cube, "--keep"}, "--server"},
+        {{"info", cube, "--server", "nowhere"}, "INVALID_OPTION"},
+        {{"info", cube, "--server", "127.0.0.1:1"}, "UNAVAILABLE"},
+        {{"info", "-", "--server", "127.0.0.1:1"}, "(IN)"},
+        {{"info", cube, "--server", "127.0.0.1:1", "--session", "s"}, "(IN)"},
+        {{"info", cube, "--server", "127.0.0.1:1", "--representation", "r"}, "(--session)"},
+        {{"resolution", cube, "--server", "127.0.0.1:1"}, "(--session)"},
+    };
+    for (const Refusal& refusal : refusals) {
+        std::vector<std::string> all{VSPLIT_BINARY};
+        all.insert(all.end(), refusal.arguments.begin(), refusal.arguments.end());
+        const CommandResult result = test::run_command(all);
+        EXPECT_EQ(result.exit_status, 1) << refusal.said;
+        EXPECT_EQ(result.out, "") << refusal.said;
+        EXPECT_TRUE(result.err.starts_with("vsplit: ")) << result.err;
+        EXPECT_NE(result.err.find(refusal.said), std::string::npos) << result.err << "lacks " << refusal.said;
+    }
+}
+
+TEST_F(CommandLineTest, BrokenFilesAreRefusedNotFollowed) {
+    std::size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(test::data_file("broken"))) {
+        if (!entry.is_regular_file()) continue;
+        const CommandResult result = run({"improve", entry.path().string(), "--json"});
+        EXPECT_EQ(result.exit_status, 1) << entry.path();
+        EXPECT_EQ(result.out, "") << entry.path();
+        EXPECT_TRUE(result.err.starts_with("vsplit: ")) << entry.path() << result.err;
+        ++files;
+    }
+    EXPECT_GT(files, 10U);
+}
+
+TEST_F(CommandLineTest, DamagedRepresentationFilesAreRefused) {
+    const std::string improved = improved_file();
+    const std::string whole = test::file_content(improved);
+    const auto check = [&](const std::string& bytes, const std::string& what) {
+        std::ofstream(file("damaged.vsplit"), std::ios::binary) << bytes;
+        const CommandResult result = run({"info", file("damaged.vsplit")});
+        EXPECT_EQ(result.exit_status, 1) << what;
+        EXPECT_TRUE(result.err.starts_with("vsplit: ")) << what << result.err;
+    };
+    check("", "empty");
+    check(whole.substr(0, whole.size() / 2), "half");
+    check(whole.substr(0, 10), "ten bytes");
+    std::string flipped = whole;
+    flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 1);
+    check(flipped, "one bit");
+}
+
+TEST_F(CommandLineTest, HelpShowsUnitsDefaultsAndAnExample) {
+    EXPECT_EQ(run({"--version"}).out, "vsplit " VSPLIT_VERSION "\n");
+    const CommandResult help = run({"--help"});
+    EXPECT_EQ(help.exit_status, 0);
+    for (const char* verb : {"info", "improve", "control", "resolution", "quality"}) {
+        EXPECT_NE(help.out.find(verb), std::string::npos);
+        const CommandResult of_verb = run({verb, "--help"});
+        EXPECT_EQ(of_verb.exit_status, 0);
+        EXPECT_NE(of_verb.out.find(std::string("Example:\n  vsplit ") + verb), std::string::npos) << of_verb.out;
+    }
+    const std::string improve = run({"improve", "--help"}).out;
+    for (const char* option : {"--subdivide",      "--tolerance",      "--faces", "--faces-min", "--max-deviation",
+                               "--feature-angle",  "--feature-weight", "--mode",  "--repair",    "--weld",
+                               "--threads",        "--format",         "--json",  "--server",    "--session",
+                               "--representation", "--no-progress",    "-o",      "Default",     "degrees"}) {
+        EXPECT_NE(improve.find(option), std::string::npos) << option;
+    }
+}
+
+TEST_F(CommandLineTest, AFullDiskIsToldNotSwallowed) {
+    const std::string cube = mesh_file("cube.obj", test::cube());
+    const CommandResult result =
+        test::run_command({"/bin/sh", "-c", std::string(VSPLIT_BINARY) + " info " + cube + " > /dev/full"});
+    EXPECT_EQ(result.exit_status, 1);
+    EXPECT_NE(result.err.find("FILE_ACCESS"), std::string::npos) << result.err;
+}
+
+TEST_F(CommandLineTest, AnInterruptCancelsCleanly) {
+    const std::string input = mesh_file("ball.ply", test::icosphere(6));
+    Command command(words({"improve", input, "--subdivide", "0.004", "-o", file("ball.vsplit")}));
+    ASSERT_TRUE(command.blocks(SIGINT, seconds(30)));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // into the work
+    ASSERT_EQ(::kill(command.pid(), SIGINT), 0);
+    const auto begin = std::chrono::steady_clock::now();
+    const CommandResult result = command.wait(seconds(60));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, seconds(20));
+    EXPECT_EQ(result.exit_status, 1);
+    EXPECT_EQ(result.err, "vsplit: cancelled\n");
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(std::distance(fs::directory_iterator(directory_.path()), fs::directory_iterator()), 1);  // the input
+}
+
+/// What a command writes to a terminal that is its stderr.
+std::string said_to_terminal(const std::vector<std::string>& words) {
+    const int master = ::posix_openpt(O_RDWR | O_NOCTTY);
+    if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0) return "no terminal";
+    const int slave = ::open(::ptsname(master), O_RDWR | O_NOCTTY);
+    Command command(words, slave);
+    ::close(slave);
+    std::string said;
+    std::array<char, 4096> buffer{};
+    for (ssize_t got = 0; (got = ::read(master, buffer.data(), buffer.size())) > 0;)
+        said.append(buffer.data(), static_cast<std::size_t>(got));
+    ::close(master);
+    EXPECT_EQ(command.wait().exit_status, 0);
+    return said;
+}
+
+TEST_F(CommandLineTest, ProgressIsShownOnTerminalsOnly) {
+    const std::string input = mesh_file("frame.off", test::cube_frame());
+    const std::string shown = said_to_terminal(words({"improve", input, "--subdivide", "0.1"}));
+    EXPECT_NE(shown.find("simplify"), std::string::npos) << shown;
+    EXPECT_TRUE(shown.ends_with("\r\033[K")) << shown;  // it leaves a clean line
+    EXPECT_EQ(said_to_terminal(words({"improve", input, "--subdivide", "0.3", "--no-progress"})), "");
+    EXPECT_EQ(run({"improve", input, "--subdivide", "0.3"}).err, "");
+}
+
+}  // namespace
+}  // namespace vsplit::cli

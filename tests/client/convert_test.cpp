@@ -1,0 +1,180 @@
+#include "wire/convert.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+#include "tests/core/meshes.h"
+#include "vsplit/mrr/record_block.h"
+
+namespace vsplit::wire {
+namespace {
+
+TEST(ConvertTest, SummaryHoldsTheReport) {
+    const TriangleMesh mesh = test::torus(12, 8);
+    const MeshReport report = inspect(mesh);
+    const v1::MeshSummary summary = to_proto(report);
+    EXPECT_EQ(summary.vertices(), 96U);
+    EXPECT_EQ(summary.faces(), 192U);
+    EXPECT_TRUE(summary.closed());
+    EXPECT_EQ(summary.components(), 1U);
+    EXPECT_EQ(summary.genus(), 1);
+    EXPECT_DOUBLE_EQ(summary.bounding_box().max().x(), report.box.max.x());
+    EXPECT_DOUBLE_EQ(summary.bounding_box().min().z(), report.box.min.z());
+    EXPECT_EQ(summary.quality().faces(), 192U);
+    EXPECT_DOUBLE_EQ(summary.quality().stretch_mean(), report.quality.stretch_mean);
+    EXPECT_EQ(summary.quality().stretch_histogram_size(), 20);
+    EXPECT_FALSE(summary.quality().has_deviation_max());
+}
+
+TEST(ConvertTest, FindingsKeepNamePlaceAndCount) {
+    TriangleMesh open = test::cube();
+    open.faces.pop_back();
+    const v1::MeshSummary summary = to_proto(inspect(open));
+    EXPECT_FALSE(summary.closed());
+    EXPECT_EQ(summary.boundary_edges(), 3U);
+    ASSERT_EQ(summary.findings_size(), 1);
+    EXPECT_EQ(summary.findings(0).kind(), "BOUNDARY_EDGE");
+    EXPECT_EQ(summary.findings(0).count(), 3U);
+    EXPECT_EQ(summary.findings(0).elements_size(), 6);
+}
+
+TEST(ConvertTest, QualityListsTheWorstFaces) {
+    const TriangleMesh mesh = test::sliver_cylinder(16, 10);
+    const std::vector<FaceQuality> worst = worst_faces(mesh, 3);
+    const v1::Quality quality = to_proto(measure_quality(mesh), worst);
+    ASSERT_EQ(quality.worst_faces_size(), 3);
+    EXPECT_EQ(quality.worst_faces(0).face(), worst[0].face);
+    EXPECT_DOUBLE_EQ(quality.worst_faces(0).stretch(), quality.stretch_min());
+    EXPECT_DOUBLE_EQ(quality.worst_faces(2).centroid().y(), worst[2].centroid.y());
+}
+
+TEST(ConvertTest, AnEmptyBoxHasNoCorners) {
+    EXPECT_FALSE(to_proto(BoundingBox()).has_min());
+    EXPECT_FALSE(to_proto(BoundingBox()).has_max());
+}
+
+ImproveOptions full_improve_options() {
+    ImproveOptions options;
+    options.subdivision_size = 8;
+    options.tolerance = 1.5;
+    options.max_deviation = 2.5;
+    options.feature_angle = 30;
+    options.feature_weight = 7;
+    options.faces = 1000;
+    options.faces_min = 10;
+    options.mode = Mode::kExtended;
+    return options;
+}
+
+TEST(ConvertTest, ImproveOptionsSurviveTheWay) {
+    const ImproveOptions options = full_improve_options();
+    const Expected<ImproveOptions> back = from_proto(to_proto(options));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->subdivision_size, options.subdivision_size);
+    EXPECT_EQ(back->tolerance, options.tolerance);
+    EXPECT_EQ(back->max_deviation, options.max_deviation);
+    EXPECT_EQ(back->feature_angle, options.feature_angle);
+    EXPECT_EQ(back->feature_weight, options.feature_weight);
+    EXPECT_EQ(back->faces, options.faces);
+    EXPECT_EQ(back->faces_min, options.faces_min);
+    EXPECT_EQ(back->mode, options.mode);
+}
+
+TEST(ConvertTest, ControlOptionsSurviveTheWay) {
+    ControlOptions options;
+    options.subdivisions = 0;
+    options.min_stretch = 0.3;
+    options.max_size = 4;
+    options.max_valence = 9;
+    options.tolerance = 0.5;
+    options.mode = Mode::kStrict;
+    const Expected<ControlOptions> back = from_proto(to_proto(options));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->subdivisions, options.subdivisions);
+    EXPECT_EQ(back->min_stretch, options.min_stretch);
+    EXPECT_EQ(back->max_size, options.max_size);
+    EXPECT_EQ(back->max_valence, options.max_valence);
+    EXPECT_EQ(back->tolerance, options.tolerance);
+    EXPECT_EQ(back->mode, options.mode);
+    EXPECT_FALSE(back->faces || back->faces_min || back->max_deviation || back->feature_angle || back->feature_weight);
+}
+
+TEST(ConvertTest, AbsentOptionsStayAbsentAndZeroDoesNot) {
+    const Expected<ImproveOptions> empty = from_proto(v1::ImproveOptions());
+    ASSERT_TRUE(empty);
+    EXPECT_FALSE(empty->subdivision_size || empty->tolerance || empty->faces || empty->mode);
+    v1::ImproveOptions zero;
+    zero.set_tolerance(0);
+    EXPECT_EQ(from_proto(zero)->tolerance, 0.0);  // for check_options to refuse
+}
+
+TEST(ConvertTest, UnknownEnumNumbersAreNamedErrors) {
+    v1::ImproveOptions improve;
+    improve.set_mode(static_cast<v1::Mode>(7));
+    EXPECT_EQ(from_proto(improve).error().field, "mode");
+    v1::ControlOptions control;
+    control.set_mode(static_cast<v1::Mode>(7));
+    EXPECT_EQ(from_proto(control).error().cause, Cause::kInvalidOption);
+    EXPECT_EQ(from_proto(static_cast<v1::MeshFormat>(99)).error().field, "format");
+    EXPECT_EQ(from_proto(static_cast<v1::RecordEncoding>(99)).error().field, "encoding");
+    EXPECT_EQ(check_repair(static_cast<v1::Repair>(99)).error().cause, Cause::kInvalidOption);
+}
+
+TEST(ConvertTest, FormatsSurviveTheWay) {
+    for (const MeshFormat format : {MeshFormat::kStlBinary, MeshFormat::kStlAscii, MeshFormat::kObj, MeshFormat::kPlyBinary,
+                                    MeshFormat::kPlyAscii, MeshFormat::kOff}) {
+        EXPECT_NE(to_proto(std::optional(format)), v1::MESH_FORMAT_UNSPECIFIED);
+        EXPECT_EQ(*from_proto(to_proto(std::optional(format))), format);
+    }
+    EXPECT_EQ(to_proto(std::optional<MeshFormat>()), v1::MESH_FORMAT_UNSPECIFIED);
+    EXPECT_EQ(*from_proto(v1::MESH_FORMAT_UNSPECIFIED), std::nullopt);
+}
+
+TEST(ConvertTest, RepairsOfLaterVersionsAreUnsupported) {
+    EXPECT_TRUE(check_repair(v1::REPAIR_UNSPECIFIED));
+    EXPECT_TRUE(check_repair(v1::NONE));
+    for (const v1::Repair repair : {v1::SAFE, v1::FULL}) {
+        EXPECT_EQ(check_repair(repair).error().cause, Cause::kUnsupported);
+        EXPECT_EQ(check_repair(repair).error().field, "repair");
+    }
+}
+
+TEST(ConvertTest, RecordBlocksSurviveTheWay) {
+    const std::array<VertexSplit, 2> splits{VertexSplit{1, 2, {0, 1, 2}, {3, 4, 5}},
+                                            VertexSplit{6, 1, {-1, 0, 1}, {0.1, 0.2, 0.3}}};
+    const RecordBlock block = encode_block(splits, 41, RecordEncoding::kFloat64);
+    const v1::RecordBlock message = to_proto(block);
+    EXPECT_EQ(message.first(), 41U);
+    EXPECT_EQ(message.count(), 2U);
+    const Expected<RecordBlock> back = from_proto(message);
+    ASSERT_TRUE(back);
+    const Expected<std::vector<VertexSplit>> decoded = decode_block(*back);
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ((*decoded)[0], splits[0]);
+    EXPECT_EQ((*decoded)[1], splits[1]);
+}
+
+TEST(ConvertTest, BlocksOfUnknownEncodingAreCorrupt) {
+    v1::RecordBlock message;
+    message.set_first(7);
+    message.set_encoding(static_cast<v1::RecordEncoding>(9));
+    EXPECT_EQ(from_proto(message).error().cause, Cause::kCorrupt);
+    EXPECT_EQ(*from_proto(v1::RECORD_ENCODING_UNSPECIFIED), RecordEncoding::kFloat64);
+}
+
+TEST(ConvertTest, ProgressAndViolationKeepEveryField) {
+    const v1::Progress progress = to_proto(Progress{"simplify", 0.25, 1234});
+    EXPECT_EQ(progress.stage(), "simplify");
+    EXPECT_EQ(progress.fraction(), 0.25);
+    EXPECT_EQ(progress.faces(), 1234U);
+    const v1::Violation violation = to_proto(Violation{"max_size", 2, 3.5, 2, {8, 9}, "because \xff"});
+    EXPECT_EQ(violation.bound(), "max_size");
+    EXPECT_EQ(violation.worst(), 3.5);
+    EXPECT_EQ(violation.elements(1), 9U);
+    EXPECT_EQ(violation.reason(), "because ?");
+}
+
+}  // namespace
+}  // namespace vsplit::wire

@@ -1,0 +1,71 @@
+#include "cli/message.h"
+
+#include <gtest/gtest.h>
+
+#include "cli/number_text.h"
+#include "cli/progress_bar.h"
+
+namespace vsplit::cli {
+namespace {
+
+TEST(MessageTest, AnErrorNamesCauseAndOption) {
+    EXPECT_EQ(error_message({Cause::kInvalidOption, "subdivision_size is -1", "subdivision_size"}),
+              "vsplit: INVALID_OPTION: subdivision_size is -1 (--subdivide)\n");
+    EXPECT_EQ(error_message({Cause::kOpenMesh, "3 edges have one face", ""}), "vsplit: OPEN_MESH: 3 edges have one face\n");
+    EXPECT_EQ(error_message({Cause::kNotFound, "none", "page_token"}), "vsplit: NOT_FOUND: none\n");
+    EXPECT_EQ(error_message({Cause::kCancelled, "whatever", ""}), "vsplit: cancelled\n");
+}
+
+TEST(MessageTest, ABrokenBoundIsToldWithCountWorstAndReason) {
+    v1::Representation made;
+    EXPECT_EQ(violation_messages(made), "");
+    v1::Violation& stretch = *made.add_violations();
+    stretch.set_bound("min_stretch");
+    stretch.set_limit(0.2);
+    stretch.set_worst(0.125);
+    stretch.set_count(1);
+    stretch.set_reason("no collapse helps");
+    v1::Violation& valence = *made.add_violations();
+    valence.set_bound("max_valence");
+    valence.set_limit(8);
+    valence.set_worst(11);
+    valence.set_count(1200);
+    valence.set_reason("flips are not offered");
+    EXPECT_EQ(violation_messages(made),
+              "vsplit: bound not met: min_stretch 0.2: 1 face, worst 0.125; no collapse helps\n"
+              "vsplit: bound not met: max_valence 8: 1,200 vertices, worst 11; flips are not offered\n");
+}
+
+TEST(MessageTest, TheNearestResolutionIsToldOnlyWhereItIsAnother) {
+    v1::Representation made;
+    made.set_faces(100);
+    made.set_faces_min(100);
+    made.set_faces_max(5000);
+    EXPECT_EQ(nearest_note(100, made), "");
+    EXPECT_EQ(nearest_note(101, made), "");  // counts go in steps of two
+    EXPECT_NE(nearest_note(50, made).find("100 is the nearest"), std::string::npos);
+    made.set_faces(5000);
+    EXPECT_NE(nearest_note(9000, made).find("there are 100 to 5,000"), std::string::npos);
+}
+
+TEST(NumberTextTest, Formats) {
+    EXPECT_EQ(grouped(0), "0");
+    EXPECT_EQ(grouped(999), "999");
+    EXPECT_EQ(grouped(1000), "1,000");
+    EXPECT_EQ(grouped(1234567), "1,234,567");
+    EXPECT_EQ(figure(0.0125), "0.0125");
+    EXPECT_EQ(fixed(0.68049, 3), "0.680");
+    EXPECT_EQ(fixed(1e300, 2).size(), 304U);
+    EXPECT_EQ(left("ab", 4), "ab  ");
+    EXPECT_EQ(right("ab", 4), "  ab");
+    EXPECT_EQ(right("abcdef", 4), "abcdef");
+}
+
+TEST(ProgressBarTest, LineSaysStageShareAndDetail) {
+    EXPECT_EQ(progress_line("simplify", 0.5, "12 faces"), "[############            ]  50 %  simplify  12 faces");
+    EXPECT_EQ(progress_line("upload", 7, ""), "[########################] 100 %  upload");
+    EXPECT_EQ(progress_line("upload", -1, ""), "[                        ]   0 %  upload");
+}
+
+}  // namespace
+}  // namespace vsplit::cli

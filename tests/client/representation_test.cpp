@@ -1,0 +1,76 @@
+#include "wire/representation.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/meshes.h"
+#include "vsplit/method/control.h"
+
+namespace vsplit::wire {
+namespace {
+
+MethodResult a_result() {
+    MethodResult result;
+    result.mrr.base = test::tetrahedron();
+    result.mrr.splits.resize(10);
+    result.faces = 12;
+    result.quality.faces = 12;
+    result.quality.stretch_mean = 0.75;
+    result.elapsed = std::chrono::duration<double>(2.5);
+    return result;
+}
+
+TEST(RepresentationTest, DescribesAnImprovement) {
+    ImproveOptions options;
+    options.tolerance = 0.5;
+    options.mode = Mode::kStrict;
+    const v1::Representation made = describe("r1", "r0", 99, options, a_result());
+    EXPECT_EQ(made.id(), "r1");
+    EXPECT_EQ(made.method(), v1::IMPROVE);
+    EXPECT_EQ(made.source().representation(), "r0");
+    EXPECT_EQ(made.source().faces(), 99U);
+    EXPECT_EQ(made.improve_options().tolerance(), 0.5);
+    EXPECT_FALSE(made.has_control_options());
+    EXPECT_EQ(made.faces_min(), 4U);
+    EXPECT_EQ(made.faces_max(), 24U);
+    EXPECT_EQ(made.faces(), 12U);
+    EXPECT_EQ(made.quality().stretch_mean(), 0.75);
+    EXPECT_TRUE(made.bounds_satisfied());
+    EXPECT_EQ(made.mode(), v1::STRICT);
+    EXPECT_EQ(made.elapsed().seconds(), 2);
+    EXPECT_EQ(made.elapsed().nanos(), 500'000'000);
+}
+
+TEST(RepresentationTest, DescribesWhatControlCouldNotMend) {
+    MethodResult result = a_result();
+    result.violations.push_back({"min_stretch", 0.2, 0.1, 3, {1, 2, 3}, "no collapse helps"});
+    const v1::Representation made = describe("r2", "", 12, ControlOptions(), result);
+    EXPECT_EQ(made.method(), v1::CONTROL);
+    EXPECT_FALSE(made.bounds_satisfied());
+    ASSERT_EQ(made.violations_size(), 1);
+    EXPECT_EQ(made.violations(0).reason(), "no collapse helps");
+}
+
+TEST(RepresentationTest, FollowsToAnotherResolution) {
+    ControlOptions options;
+    options.min_stretch = 0.5;
+    MethodResult result = a_result();
+    result.violations.push_back({"min_stretch", 0.5, 0.4, 1, {0}, "the method's reason"});
+    v1::Representation made = describe("r3", "", 12, options, result);
+
+    describe_resolution(test::icosphere(1), made);
+    EXPECT_EQ(made.faces(), 80U);
+    EXPECT_EQ(made.quality().faces(), 80U);
+    EXPECT_TRUE(made.bounds_satisfied());
+    EXPECT_TRUE(made.violations().empty());
+
+    v1::Representation again = describe("r3", "", 12, options, result);
+    const TriangleMesh slivers = test::sliver_cylinder(16, 10);
+    describe_resolution(slivers, again);
+    EXPECT_FALSE(again.bounds_satisfied());
+    ASSERT_EQ(again.violations_size(), 1);
+    EXPECT_EQ(again.violations(0).count(), find_violations(slivers, options).at(0).count);
+    EXPECT_EQ(again.violations(0).reason(), "the method's reason");
+}
+
+}  // namespace
+}  // namespace vsplit::wire

@@ -1,0 +1,116 @@
+#include "vsplit/mesh/inspect.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/core/meshes.h"
+
+namespace vsplit {
+namespace {
+
+const Finding* find(const MeshReport& report, Finding::Kind kind) {
+    const auto found = std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& f) { return f.kind == kind; });
+    return found == report.findings.end() ? nullptr : &*found;
+}
+
+TEST(InspectTest, KnowsTopologyOfClosedMeshes) {
+    const auto expect = [](const TriangleMesh& mesh, std::uint32_t components, std::int32_t genus) {
+        const MeshReport report = inspect(mesh);
+        EXPECT_TRUE(report.closed);
+        EXPECT_EQ(report.components, components);
+        EXPECT_EQ(report.genus, genus);
+        EXPECT_EQ(report.boundary_edges, 0U);
+        EXPECT_TRUE(require_closed_manifold(report));
+    };
+    expect(test::tetrahedron(), 1, 0);
+    expect(test::cube(), 1, 0);
+    expect(test::torus(12, 8), 1, 1);
+    expect(test::plate_with_holes(3), 1, 3);
+    expect(test::cube_frame(), 1, 5);
+    expect(test::joined(test::torus(12, 8), test::cube_frame(), Vec3(50, 0, 0)), 2, 6);
+    expect(test::sliver_cylinder(40, 10), 1, 0);
+}
+
+TEST(InspectTest, NamesBoundaryEdges) {
+    TriangleMesh mesh = test::icosphere(1);
+    mesh.faces.erase(mesh.faces.begin() + 5);
+    const MeshReport report = inspect(mesh);
+    EXPECT_FALSE(report.closed);
+    EXPECT_EQ(report.boundary_edges, 3U);
+    const Finding* boundary = find(report, Finding::Kind::kBoundaryEdge);
+    ASSERT_NE(boundary, nullptr);
+    EXPECT_EQ(boundary->elements.size(), 6U);
+    const Status refused = require_closed_manifold(report);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().cause, Cause::kOpenMesh);
+    const std::string first = std::to_string(boundary->elements[0]) + "-" + std::to_string(boundary->elements[1]);
+    EXPECT_NE(refused.error().message.find(first), std::string::npos) << refused.error().message;
+}
+
+TEST(InspectTest, NamesEdgesWithThreeFaces) {
+    TriangleMesh mesh = test::tetrahedron();
+    mesh.positions.emplace_back(9, 9, 9);
+    mesh.faces.push_back({0, 1, 4});
+    const MeshReport report = inspect(mesh);
+    EXPECT_EQ(report.non_manifold_edges, 1U);
+    EXPECT_FALSE(report.closed);
+    const Status refused = require_closed_manifold(report);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().cause, Cause::kNonManifold);
+    EXPECT_NE(refused.error().message.find("0-1"), std::string::npos);
+}
+
+TEST(InspectTest, SeesAFaceTurnedInsideOut) {
+    TriangleMesh mesh = test::icosphere(1);
+    std::swap(mesh.faces[3][0], mesh.faces[3][1]);
+    const MeshReport report = inspect(mesh);
+    EXPECT_EQ(report.inconsistent_edges, 3U);
+    EXPECT_FALSE(report.closed);
+    EXPECT_EQ(require_closed_manifold(report).error().cause, Cause::kNonManifold);
+}
+
+TEST(InspectTest, SeesTwoFansAtAVertex) {
+    TriangleMesh mesh = test::joined(test::tetrahedron(), test::tetrahedron(), Vec3(10, 0, 0));
+    for (Triangle& t : mesh.faces) std::replace(t.begin(), t.end(), 4U, 0U);  // the second body's first vertex is the first's
+    const MeshReport report = inspect(mesh);
+    EXPECT_EQ(report.non_manifold_vertices, 1U);
+    EXPECT_EQ(report.non_manifold_edges, 0U);
+    EXPECT_EQ(report.components, 2U);
+    const Finding* vertex = find(report, Finding::Kind::kNonManifoldVertex);
+    ASSERT_NE(vertex, nullptr);
+    EXPECT_EQ(vertex->elements, std::vector<std::uint32_t>{0});
+    EXPECT_EQ(require_closed_manifold(report).error().cause, Cause::kNonManifold);
+}
+
+TEST(InspectTest, CountsDegenerateAndDuplicateFaces) {
+    TriangleMesh mesh = test::cube();
+    mesh.faces.push_back(mesh.faces[4]);
+    EXPECT_EQ(inspect(mesh).duplicate_faces, 1U);
+    TriangleMesh flat = test::tetrahedron();
+    flat.positions[3] = (flat.positions[0] + flat.positions[1]) / 2;
+    EXPECT_GE(inspect(flat).degenerate_faces, 1U);
+    EXPECT_TRUE(inspect(flat).closed);
+}
+
+TEST(InspectTest, AnEmptyMeshIsRefusedAsEmpty) {
+    const MeshReport report = inspect({});
+    EXPECT_FALSE(report.closed);
+    EXPECT_EQ(require_closed_manifold(report).error().cause, Cause::kEmptyInput);
+}
+
+TEST(InspectTest, IsBlindToOrder) {
+    for (const test::NamedMesh& m : test::small_meshes()) {
+        SCOPED_TRACE(m.name);
+        const MeshReport before = inspect(m.mesh);
+        const MeshReport after = inspect(test::shuffled(m.mesh, 3));
+        EXPECT_EQ(after.closed, before.closed);
+        EXPECT_EQ(after.components, before.components);
+        EXPECT_EQ(after.genus, before.genus);
+        EXPECT_EQ(after.quality.valence_max, before.quality.valence_max);
+        EXPECT_EQ(after.quality.stretch_histogram, before.quality.stretch_histogram);
+    }
+}
+
+}  // namespace
+}  // namespace vsplit

@@ -1,0 +1,101 @@
+#include "vsplit/io/mesh_format.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/core/meshes.h"
+#include "vsplit/io/write_mesh.h"
+
+namespace vsplit::test {
+namespace {
+
+constexpr std::array kFormats = {MeshFormat::kStlBinary, MeshFormat::kStlAscii, MeshFormat::kObj,
+                                 MeshFormat::kPlyBinary, MeshFormat::kPlyAscii, MeshFormat::kOff};
+
+std::optional<MeshFormat> detect(const std::string& text) { return detect_format(std::as_bytes(std::span(text))); }
+
+TEST(MeshFormatTest, NamesAreReadBack) {
+    for (const MeshFormat format : kFormats) {
+        const Expected<MeshFormat> found = format_by_name(format_name(format));
+        ASSERT_TRUE(found);
+        EXPECT_EQ(*found, format);
+    }
+}
+
+TEST(MeshFormatTest, UnknownNameListsTheNames) {
+    const Expected<MeshFormat> found = format_by_name("step");
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().cause, Cause::kInvalidOption);
+    EXPECT_EQ(found.error().field, "format");
+    for (const MeshFormat format : kFormats) {
+        EXPECT_NE(found.error().message.find(format_name(format)), std::string::npos) << found.error().message;
+    }
+}
+
+TEST(MeshFormatTest, ExtensionsInAnyCase) {
+    const std::vector<std::pair<std::string, MeshFormat>> cases = {{"a.stl", MeshFormat::kStlBinary},
+                                                                   {"/dir.obj/B.STL", MeshFormat::kStlBinary},
+                                                                   {"a.b.Obj", MeshFormat::kObj},
+                                                                   {"a.ply", MeshFormat::kPlyBinary},
+                                                                   {"a.off", MeshFormat::kOff}};
+    for (const auto& [name, format] : cases) {
+        const Expected<MeshFormat> found = format_by_extension(name);
+        ASSERT_TRUE(found) << name;
+        EXPECT_EQ(*found, format) << name;
+    }
+}
+
+TEST(MeshFormatTest, UnknownExtensionListsTheExtensions) {
+    for (const std::string name : {"a", "a.", "a.step", "", "a.stl/b", ".", "stl"}) {
+        const Expected<MeshFormat> found = format_by_extension(name);
+        ASSERT_FALSE(found) << name;
+        EXPECT_EQ(found.error().cause, Cause::kUnknownFormat);
+        EXPECT_NE(found.error().message.find(".stl, .obj, .ply, .off"), std::string::npos) << found.error().message;
+    }
+}
+
+TEST(MeshFormatTest, WhatIsWrittenIsDetected) {
+    for (const auto& [name, mesh] : small_meshes()) {
+        for (const MeshFormat format : kFormats) {
+            EXPECT_EQ(detect(write_mesh(mesh, format)), format) << name << " as " << format_name(format);
+        }
+    }
+}
+
+TEST(MeshFormatTest, BinaryStlThatSaysSolidIsToldByItsLength) {
+    std::string bytes = write_mesh(cube(), MeshFormat::kStlBinary);
+    bytes.replace(0, 10, "solid cube");
+    EXPECT_EQ(detect(bytes), MeshFormat::kStlBinary);
+    // Nothing but spaces and text up to the count, and the first coordinates without a zero byte.
+    std::string spaced = "solid" + std::string(75, ' ') + bytes.substr(80);
+    EXPECT_EQ(detect(spaced), MeshFormat::kStlBinary);
+    EXPECT_EQ(detect(spaced.substr(0, spaced.size() - 30)), MeshFormat::kStlBinary) << "cut off, it is still no text";
+}
+
+TEST(MeshFormatTest, TextIsToldByItsFirstWord) {
+    EXPECT_EQ(detect("solid\nfacet"), MeshFormat::kStlAscii);
+    EXPECT_EQ(detect("  SOLID name"), MeshFormat::kStlAscii);
+    EXPECT_EQ(detect("OFF 8 6 12\n"), MeshFormat::kOff);
+    EXPECT_EQ(detect("# comment\n\nCOFF\n"), MeshFormat::kOff);
+    EXPECT_EQ(detect("STCNOFF\n"), MeshFormat::kOff);
+    EXPECT_EQ(detect("# comment\r\n\r\nmtllib a.mtl\r\n"), MeshFormat::kObj);
+    EXPECT_EQ(detect("\xEF\xBB\xBFv 0 0 0\n"), MeshFormat::kObj);
+    EXPECT_EQ(detect(std::string(10000, '#')), MeshFormat::kObj) << "a comment longer than what is looked at";
+    EXPECT_EQ(detect("ply\nformat ascii 1.0\n"), MeshFormat::kPlyAscii);
+    EXPECT_EQ(detect("ply\r\ncomment a\r\nformat binary_big_endian 1.0\r\n"), MeshFormat::kPlyBinary);
+}
+
+TEST(MeshFormatTest, OtherBytesAreNoFormat) {
+    EXPECT_EQ(detect(""), std::nullopt);
+    EXPECT_EQ(detect(" \n \n"), std::nullopt);
+    EXPECT_EQ(detect("solidity"), std::nullopt);
+    EXPECT_EQ(detect("plywood"), std::nullopt);
+    EXPECT_EQ(detect("OFFICE"), std::nullopt);
+    EXPECT_EQ(detect("{\"vertices\": []}"), std::nullopt);
+    EXPECT_EQ(detect(std::string(1000, '\x81')), std::nullopt);
+    EXPECT_EQ(detect("A letter of more than 84 bytes is text all the same. " + std::string(200, '.')), std::nullopt);
+}
+
+}  // namespace
+}  // namespace vsplit::test

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vsplit/mesh/triangle_mesh.h"
+
+/// Meshes that tests are made of. All are closed, manifold, seen counter-clockwise from outside, and the same on every machine.
+namespace vsplit::test {
+
+/// 4 faces, genus 0: the smallest closed mesh.
+[[nodiscard]] TriangleMesh tetrahedron();
+
+/// The unit cube [0, 1]^3, 12 faces.
+[[nodiscard]] TriangleMesh cube();
+
+/// 20 * 4^subdivisions faces on the unit sphere.
+[[nodiscard]] TriangleMesh icosphere(unsigned subdivisions);
+
+/// 2 * around * across faces, radii 1 and 0.4, genus 1. \pre both at least 3.
+[[nodiscard]] TriangleMesh torus(std::uint32_t around, std::uint32_t across);
+
+/// A plate of unit cubes with `holes` square holes in a row: genus `holes`, sharp edges everywhere.
+[[nodiscard]] TriangleMesh plate_with_holes(std::uint32_t holes);
+
+/// The twelve bars of a cube: genus 5.
+[[nodiscard]] TriangleMesh cube_frame();
+
+/// A cylinder as CAD tessellates it: radius 1, the whole side in faces as long as the cylinder, caps cut into fans from one
+/// corner. 4 * segments - 4 faces, nearly all slivers, valence up to segments + 1. \pre segments at least 3, length > 0.
+[[nodiscard]] TriangleMesh sliver_cylinder(std::uint32_t segments, double length);
+
+/// An icosphere with waves and noise of up to `noise` of the radius, as a scanner would see it.
+[[nodiscard]] TriangleMesh bumpy_sphere(unsigned subdivisions, double noise, std::uint64_t seed);
+
+/// The same surface with vertices and faces in another order and the corners of each face turned.
+[[nodiscard]] TriangleMesh shuffled(const TriangleMesh& mesh, std::uint64_t seed);
+
+/// Both meshes in one, `right` moved by `offset`: two components when they do not touch.
+[[nodiscard]] TriangleMesh joined(const TriangleMesh& left, const TriangleMesh& right, const Vec3& offset);
+
+/// A mesh and what a test calls it.
+struct NamedMesh {
+    std::string name;
+    TriangleMesh mesh;
+};
+
+/// One of each kind above, small (at most a few thousand faces).
+[[nodiscard]] std::vector<NamedMesh> small_meshes();
+
+/// A file of this repository's tests/data.
+[[nodiscard]] std::filesystem::path data_file(const std::string& name);
+
+/// The closed manifold meshes among them: CAD parts, two bodies combined, a scan-like surface.
+[[nodiscard]] std::vector<std::filesystem::path> own_closed_meshes();
+
+/// Closed manifold meshes of the real world: CAD, scans, FE surfaces. Empty where that collection is not on this machine (it is
+/// no part of the repository).
+[[nodiscard]] std::vector<std::filesystem::path> shared_closed_meshes();
+
+/// The stem of a path, usable as a name of a parameterised test.
+[[nodiscard]] std::string test_name(const std::filesystem::path& path);
+
+}  // namespace vsplit::test

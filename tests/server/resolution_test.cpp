@@ -1,0 +1,99 @@
+#include "service/resolution.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "tests/core/meshes.h"
+
+namespace vsplit::service {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A session with representations of 4 to 24 faces, made for 14. The splits say nothing: a plan does not look at them.
+SessionSnapshot session_with(int representations) {
+    SessionSnapshot session;
+    MethodResult result;
+    result.mrr.base = test::tetrahedron();
+    result.mrr.splits.resize(10);
+    result.faces = 14;
+    for (int i = 1; i <= representations; ++i) {
+        session.representations.push_back(
+            std::make_shared<const Representation>('r' + std::to_string(i), MeshRef{}, ImproveOptions{}, result));
+    }
+    return session;
+}
+
+ResolutionPlan plan(std::uint32_t held, std::uint32_t wanted, std::uint32_t resume_from = 0) {
+    const Expected<ResolutionPlan> made = plan_resolution(session_with(1), {"r1", held, wanted, resume_from});
+    EXPECT_TRUE(made) << made.error().message;
+    return made ? *made : ResolutionPlan{};
+}
+
+TEST(ResolutionTest, WhoHoldsNothingGetsTheBaseAndAllRecords) {
+    const ResolutionPlan p = plan(0, 14);
+    EXPECT_TRUE(p.with_base);
+    EXPECT_EQ(p.first_split, 0U);
+    EXPECT_EQ(p.last_split, 5U);
+    EXPECT_EQ(p.level, 5U);
+}
+
+TEST(ResolutionTest, WhoHoldsALevelGetsWhatIsMissing) {
+    const ResolutionPlan p = plan(8, 14);
+    EXPECT_FALSE(p.with_base);
+    EXPECT_EQ(p.first_split, 2U);
+    EXPECT_EQ(p.last_split, 5U);
+}
+
+TEST(ResolutionTest, CoarserSendsNothing) {
+    const ResolutionPlan p = plan(14, 8);
+    EXPECT_FALSE(p.with_base);
+    EXPECT_EQ(p.first_split, p.last_split);
+    EXPECT_EQ(p.level, 2U);
+}
+
+TEST(ResolutionTest, OutOfRangeGivesTheNearest) {
+    EXPECT_EQ(plan(0, 1000).level, 10U);
+    EXPECT_EQ(plan(0, 1).level, 0U);
+    EXPECT_EQ(plan(0, 15).level, 5U);
+}
+
+TEST(ResolutionTest, ResumesWhereAStreamBrokeOff) {
+    const ResolutionPlan with_part = plan(0, 14, 3);
+    EXPECT_FALSE(with_part.with_base) << "records come after the base mesh";
+    EXPECT_EQ(with_part.first_split, 3U);
+    EXPECT_EQ(with_part.last_split, 5U);
+    EXPECT_EQ(plan(8, 14, 4).first_split, 4U);
+    EXPECT_EQ(plan(8, 14, 1).first_split, 2U) << "what the client holds is not sent again";
+    EXPECT_EQ(plan(8, 14, 7).last_split, 7U) << "nothing is missing";
+}
+
+TEST(ResolutionTest, RefusesToResumeBeyondTheLastRecord) {
+    const Expected<ResolutionPlan> made = plan_resolution(session_with(1), {"", 0, 14, 11});
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().cause, Cause::kInvalidOption);
+    EXPECT_EQ(made.error().field, "resume_from");
+}
+
+TEST(ResolutionTest, NamesTheNearestWhenWhatIsHeldIsNoLevel) {
+    for (const auto& [held, nearest] : {std::pair{9U, "8"}, std::pair{3U, "4"}, std::pair{26U, "24"}}) {
+        const Expected<ResolutionPlan> made = plan_resolution(session_with(1), {"", held, 14, 0});
+        ASSERT_FALSE(made) << held;
+        EXPECT_EQ(made.error().cause, Cause::kInvalidOption);
+        EXPECT_EQ(made.error().field, "faces_held");
+        EXPECT_THAT(made.error().message, HasSubstr(std::string("the nearest is ") + nearest + " "));
+    }
+}
+
+TEST(ResolutionTest, TakesTheNewestUnlessToldOtherwise) {
+    const SessionSnapshot session = session_with(2);
+    EXPECT_EQ(plan_resolution(session, {"", 0, 14, 0})->representation->id(), "r2");
+    EXPECT_EQ(plan_resolution(session, {"r1", 0, 14, 0})->representation->id(), "r1");
+    EXPECT_EQ(plan_resolution(session, {"r3", 0, 14, 0}).error().cause, Cause::kNotFound);
+    EXPECT_EQ(plan_resolution(session_with(0), {"", 0, 14, 0}).error().cause, Cause::kNotReady);
+}
+
+}  // namespace
+}  // namespace vsplit::service

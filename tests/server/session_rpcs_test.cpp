@@ -1,0 +1,158 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "test_client.h"
+#include "test_server.h"
+#include "tests/core/meshes.h"
+
+namespace vsplit::test {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+double seconds_between(const google::protobuf::Timestamp& from, const google::protobuf::Timestamp& to) {
+    return static_cast<double>(to.seconds() - from.seconds()) + (to.nanos() - from.nanos()) * 1e-9;
+}
+
+TEST(CreateSessionTest, MakesAnEmptySession) {
+    TestServer server;
+    const Reply<v1::Session> created = create_session(server.stub());
+    ASSERT_TRUE(created.status.ok()) << created.status.error_message();
+    EXPECT_FALSE(created.message.id().empty());
+    EXPECT_FALSE(created.message.has_source());
+    EXPECT_EQ(created.message.representations_size(), 0);
+    EXPECT_NEAR(seconds_between(created.message.create_time(), created.message.expire_time()), 3600, 5);
+    EXPECT_THAT(server.finished(), Contains("CreateSession OK"));
+}
+
+TEST(CreateSessionTest, SummarisesTheMeshItIsGiven) {
+    TestServer server;
+    for (const MeshFormat format : {MeshFormat::kStlBinary, MeshFormat::kObj, MeshFormat::kPlyAscii, MeshFormat::kOff}) {
+        const Reply<v1::Session> created = create_session(server.stub(), file_of(torus(12, 8), format));
+        ASSERT_TRUE(created.status.ok()) << created.status.error_message();
+        const v1::MeshSummary& source = created.message.source();
+        EXPECT_EQ(source.faces(), 192U);
+        EXPECT_EQ(source.vertices(), 96U);
+        EXPECT_TRUE(source.closed());
+        EXPECT_EQ(source.genus(), 1);
+        EXPECT_EQ(source.components(), 1U);
+        EXPECT_GT(source.bounding_box().max().x(), 1.3);
+        EXPECT_EQ(source.quality().faces(), 192U);
+        EXPECT_GT(source.quality().stretch_mean(), 0.2);
+    }
+}
+
+TEST(CreateSessionTest, WeldsWithinTheTolerance) {
+    TestServer server;
+    const TriangleMesh two = joined(cube(), cube(), Vec3(1.001, 0, 0));
+    const Reply<v1::Session> apart = create_session(server.stub(), file_of(two));
+    const Reply<v1::Session> welded = create_session(server.stub(), file_of(two), 0.01);
+    ASSERT_TRUE(apart.status.ok() && welded.status.ok());
+    EXPECT_EQ(apart.message.source().vertices(), 16U);
+    EXPECT_EQ(welded.message.source().vertices(), 12U);
+}
+
+TEST(CreateSessionTest, AnOpenMeshIsAcceptedAndItsSummarySaysSo) {
+    TestServer server;
+    TriangleMesh open = cube();
+    open.faces.pop_back();
+    const Reply<v1::Session> created = create_session(server.stub(), file_of(open));
+    ASSERT_TRUE(created.status.ok()) << created.status.error_message();
+    EXPECT_FALSE(created.message.source().closed());
+    EXPECT_EQ(created.message.source().boundary_edges(), 3U);
+    ASSERT_GE(created.message.source().findings_size(), 1);
+    EXPECT_EQ(created.message.source().findings(0).kind(), "BOUNDARY_EDGE");
+}
+
+TEST(CreateSessionTest, RefusesRepairsOfALaterVersion) {
+    TestServer server;
+    for (const v1::Repair repair : {v1::SAFE, v1::FULL}) {
+        v1::CreateSessionRequest request;
+        request.set_repair(repair);
+        v1::Session session;
+        EXPECT_TRUE(failed_with(server.stub().CreateSession(call().get(), request, &session), Cause::kUnsupported, "repair"));
+    }
+    EXPECT_EQ(list_sessions(server.stub()).message.sessions_size(), 0);
+}
+
+TEST(CreateSessionTest, NamesTheLimitOfSessions) {
+    service::ServiceOptions options = small_server();
+    options.limits.sessions = 2;
+    TestServer server(options);
+    ASSERT_TRUE(create_session(server.stub()).status.ok());
+    const Reply<v1::Session> second = create_session(server.stub(), file_of(cube()));
+    ASSERT_TRUE(second.status.ok());
+    const Reply<v1::Session> third = create_session(server.stub());
+    EXPECT_TRUE(failed_with(third.status, Cause::kLimitExceeded));
+    EXPECT_THAT(third.status.error_message(), HasSubstr("max_sessions"));
+    EXPECT_TRUE(failed_with(create_session(server.stub(), file_of(cube())).status, Cause::kLimitExceeded));
+    ASSERT_TRUE(delete_session(server.stub(), second.message.id()).ok());
+    EXPECT_TRUE(create_session(server.stub()).status.ok());
+}
+
+TEST(GetSessionTest, ShowsTheMeshAndItsRepresentations) {
+    TestServer server;
+    const std::string id = session_with(server.stub(), icosphere(2));
+    ASSERT_TRUE(improve(server.stub(), small_improve(id)).status.ok());
+    const Reply<v1::Session> session = get_session(server.stub(), id);
+    ASSERT_TRUE(session.status.ok());
+    EXPECT_EQ(session.message.id(), id);
+    EXPECT_EQ(session.message.source().faces(), 320U);
+    ASSERT_EQ(session.message.representations_size(), 1);
+    EXPECT_EQ(session.message.representations(0).id(), "r1");
+}
+
+TEST(ListSessionsTest, PagesInOrderOfCreation) {
+    TestServer server;
+    std::vector<std::string> created;
+    for (int i = 0; i < 5; ++i) created.push_back(create_session(server.stub()).message.id());
+    std::vector<std::string> listed;
+    std::string token;
+    do {
+        const Reply<v1::ListSessionsResponse> page = list_sessions(server.stub(), 2, token);
+        ASSERT_TRUE(page.status.ok());
+        ASSERT_LE(page.message.sessions_size(), 2);
+        for (const v1::Session& session : page.message.sessions()) listed.push_back(session.id());
+        token = page.message.next_page_token();
+    } while (!token.empty());
+    EXPECT_EQ(listed, created);
+    EXPECT_TRUE(failed_with(list_sessions(server.stub(), 2, "nonsense").status, Cause::kInvalidOption, "page_token"));
+}
+
+TEST(DeleteSessionTest, ForgetsTheSession) {
+    TestServer server;
+    const std::string id = session_with(server.stub(), cube());
+    EXPECT_TRUE(delete_session(server.stub(), id).ok());
+    EXPECT_TRUE(failed_with(get_session(server.stub(), id).status, Cause::kNotFound, "session"));
+    EXPECT_TRUE(failed_with(delete_session(server.stub(), id), Cause::kNotFound, "session"));
+}
+
+TEST(SessionExpiryTest, AnUnusedSessionGoesAndAUsedOneStays) {
+    service::ServiceOptions options = small_server();
+    options.session_ttl = std::chrono::milliseconds(600);
+    TestServer server(options);
+    const std::string unused = session_with(server.stub(), cube());
+    const std::string used = session_with(server.stub(), cube());
+    const bool gone = eventually([&] {
+        EXPECT_TRUE(get_session(server.stub(), used).status.ok());
+        return list_sessions(server.stub()).message.sessions_size() == 1;
+    });
+    EXPECT_TRUE(gone) << "looking at the list is no use of a session";
+    EXPECT_TRUE(failed_with(get_session(server.stub(), unused).status, Cause::kNotFound, "session"));
+}
+
+TEST(SessionExpiryTest, EveryUseMovesTheTime) {
+    TestServer server;
+    const std::string id = session_with(server.stub(), cube());
+    const google::protobuf::Timestamp before = get_session(server.stub(), id).message.expire_time();
+    ASSERT_TRUE(get_quality(server.stub(), id).status.ok());
+    EXPECT_GT(seconds_between(before, get_session(server.stub(), id).message.expire_time()), 0);
+}
+
+}  // namespace
+}  // namespace vsplit::test

@@ -1,0 +1,49 @@
+#include "test_server.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <utility>
+
+#include "wire/error_table.h"
+
+namespace vsplit::test {
+
+service::ServiceOptions small_server() {
+    service::ServiceOptions options;
+    options.workers = 2;
+    options.threads = 1;
+    return options;
+}
+
+TestServer::TestServer(const service::ServiceOptions& options) : service_(options) {
+    Expected<std::unique_ptr<rpc::GrpcServer>> server =
+        rpc::GrpcServer::start("127.0.0.1:0", service_, [this](const rpc::RpcRecord& record) { note(record); });
+    if (!server) {
+        std::cerr << server.error().message << '\n';
+        std::abort();  // no test can say anything without a server
+    }
+    server_ = *std::move(server);
+    stub_ = connect();
+}
+
+TestServer::~TestServer() { server_->shutdown(std::chrono::milliseconds(0)); }
+
+std::unique_ptr<v1::Meshing::Stub> TestServer::connect() const {
+    grpc::ChannelArguments arguments;
+    arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);  // a connection of its own, not one shared with other stubs
+    const std::string address = "127.0.0.1:" + std::to_string(server_->port());
+    return v1::Meshing::NewStub(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
+}
+
+std::vector<std::string> TestServer::finished() const {
+    const std::lock_guard lock(mutex_);
+    return finished_;
+}
+
+void TestServer::note(const rpc::RpcRecord& record) {
+    const std::string outcome = record.status.ok() ? "OK" : std::string(cause_name(wire::from_status(record.status).cause));
+    const std::lock_guard lock(mutex_);
+    finished_.push_back(std::string(record.method) + ' ' + outcome);
+}
+
+}  // namespace vsplit::test

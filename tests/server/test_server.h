@@ -1,0 +1,43 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "grpc/grpc_server.h"
+#include "service/meshing_service.h"
+#include "vsplit/v1/meshing.grpc.pb.h"
+
+namespace vsplit::test {
+
+/// Two workers, one thread a method: the same on every machine.
+[[nodiscard]] service::ServiceOptions small_server();
+
+/// A server in this process, on a free port of the loopback, and a connection to it.
+class TestServer {
+public:
+    explicit TestServer(const service::ServiceOptions& options = small_server());
+    ~TestServer();
+
+    [[nodiscard]] v1::Meshing::Stub& stub() { return *stub_; }
+    [[nodiscard]] service::MeshingService& service() { return service_; }
+    [[nodiscard]] std::unique_ptr<v1::Meshing::Stub> connect() const;
+    [[nodiscard]] rpc::GrpcServer& server() { return *server_; }
+
+    /// Names and causes of the rpcs that ended so far, e.g. "Improve CANCELLED".
+    [[nodiscard]] std::vector<std::string> finished() const;
+
+private:
+    void note(const rpc::RpcRecord& record);
+
+    mutable std::mutex mutex_;
+    std::vector<std::string> finished_;
+    service::MeshingService service_;
+    std::unique_ptr<rpc::GrpcServer> server_;
+    std::unique_ptr<v1::Meshing::Stub> stub_;
+};
+
+}  // namespace vsplit::test

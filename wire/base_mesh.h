@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "vsplit/base/expected.h"
+#include "vsplit/mesh/triangle_mesh.h"
+#include "vsplit/v1/meshing.pb.h"
+
+namespace vsplit::wire {
+
+/// No part of a base mesh has more data.
+inline constexpr std::size_t kMaxPartBytes = std::size_t{256} * 1024;
+
+/// Parts that base_mesh_part cuts a mesh into: vertices first, then faces. O(1).
+[[nodiscard]] std::size_t base_mesh_parts(const TriangleMesh& mesh);
+
+/// Part number `part` of a mesh. \pre part < base_mesh_parts(mesh). O(kMaxPartBytes).
+[[nodiscard]] v1::BaseMesh base_mesh_part(const TriangleMesh& mesh, std::size_t part);
+
+/// Puts a base mesh together from its parts. What arrives is checked before it is kept: order, sizes, the limit; memory grows
+/// with the bytes that have come, never with the counts that a part claims. Indices and coordinates are for
+/// ProgressiveMesh::from_base to check.
+class BaseMeshAssembler {
+public:
+    explicit BaseMeshAssembler(std::uint32_t max_faces = 50'000'000) : max_faces_(max_faces) {}
+
+    /// \return OUT_OF_ORDER for a part that does not follow the one before it; CORRUPT for bytes or counts that do not fit;
+    /// LIMIT_EXCEEDED for more than `max_faces` faces or vertices. After an error the assembler is of no further use.
+    [[nodiscard]] Status add(const v1::BaseMesh& part);
+
+    /// Whether all parts have come.
+    [[nodiscard]] bool complete() const { return complete_; }
+
+    /// The mesh, given away, once. \pre complete().
+    [[nodiscard]] TriangleMesh take();
+
+private:
+    [[nodiscard]] Status check_counts(const v1::BaseMesh& part);
+    [[nodiscard]] Status check_order(const v1::BaseMesh& part) const;
+    [[nodiscard]] Status check_bytes(const v1::BaseMesh& part) const;
+
+    std::uint32_t max_faces_;
+    std::uint32_t vertices_ = 0;
+    std::uint32_t faces_ = 0;
+    bool begun_ = false;
+    bool complete_ = false;
+    TriangleMesh mesh_;
+};
+
+}  // namespace vsplit::wire

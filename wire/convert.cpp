@@ -1,0 +1,276 @@
+#include "wire/convert.h"
+
+#include <string>
+#include <utility>
+
+#include "wire/utf8.h"
+
+namespace vsplit::wire {
+namespace {
+
+/// Sentences may quote a file's bytes; a proto3 string must be UTF-8.
+std::string sentence(const std::string& text) { return valid_utf8(text, 4096); }
+
+template <class Elements>
+void add_elements(const Elements& elements, google::protobuf::RepeatedField<std::uint32_t>& field) {
+    field.Add(elements.begin(), elements.end());
+}
+
+Error unknown_number(const char* field, int number, const char* accepted) {
+    return {Cause::kInvalidOption,
+            std::string(field) + " is " + std::to_string(number) + ", which names none; accepted is " + accepted, field};
+}
+
+/// What both methods' options share, out of core.
+template <class Options, class Proto>
+void set_common(const Options& options, Proto& proto) {
+    if (options.tolerance) proto.set_tolerance(*options.tolerance);
+    if (options.max_deviation) proto.set_max_deviation(*options.max_deviation);
+    if (options.feature_angle) proto.set_feature_angle(*options.feature_angle);
+    if (options.feature_weight) proto.set_feature_weight(*options.feature_weight);
+    if (options.faces) proto.set_faces(*options.faces);
+    if (options.faces_min) proto.set_faces_min(*options.faces_min);
+    proto.set_mode(to_proto(options.mode));
+}
+
+/// What both methods' options share, into core.
+template <class Proto, class Options>
+Status get_common(const Proto& proto, Options& options) {
+    if (proto.has_tolerance()) options.tolerance = proto.tolerance();
+    if (proto.has_max_deviation()) options.max_deviation = proto.max_deviation();
+    if (proto.has_feature_angle()) options.feature_angle = proto.feature_angle();
+    if (proto.has_feature_weight()) options.feature_weight = proto.feature_weight();
+    if (proto.has_faces()) options.faces = proto.faces();
+    if (proto.has_faces_min()) options.faces_min = proto.faces_min();
+    Expected<std::optional<Mode>> mode = from_proto(proto.mode());
+    if (!mode) return mode.error();
+    options.mode = *mode;
+    return Done{};
+}
+
+}  // namespace
+
+v1::Vector to_proto(const Vec3& point) {
+    v1::Vector proto;
+    proto.set_x(point.x());
+    proto.set_y(point.y());
+    proto.set_z(point.z());
+    return proto;
+}
+
+v1::BoundingBox to_proto(const BoundingBox& box) {
+    v1::BoundingBox proto;
+    if (box.empty()) return proto;
+    *proto.mutable_min() = to_proto(box.min);
+    *proto.mutable_max() = to_proto(box.max);
+    return proto;
+}
+
+v1::Quality to_proto(const Quality& quality, std::span<const FaceQuality> worst) {
+    v1::Quality proto;
+    proto.set_faces(quality.faces);
+    proto.set_stretch_min(quality.stretch_min);
+    proto.set_stretch_mean(quality.stretch_mean);
+    proto.set_stretch_p01(quality.stretch_p01);
+    proto.set_faces_below_02(quality.faces_below_02);
+    proto.set_size_max(quality.size_max);
+    proto.set_valence_max(quality.valence_max);
+    add_elements(quality.stretch_histogram, *proto.mutable_stretch_histogram());
+    if (quality.deviation_max) proto.set_deviation_max(*quality.deviation_max);
+    for (const FaceQuality& face : worst) {
+        v1::FaceQuality& entry = *proto.add_worst_faces();
+        entry.set_face(face.face);
+        entry.set_stretch(face.stretch);
+        entry.set_size(face.size);
+        *entry.mutable_centroid() = to_proto(face.centroid);
+    }
+    return proto;
+}
+
+v1::Finding to_proto(const Finding& finding) {
+    v1::Finding proto;
+    proto.set_kind(std::string(finding_name(finding.kind)));
+    proto.set_count(finding.count);
+    proto.set_message(sentence(finding.message));
+    add_elements(finding.elements, *proto.mutable_elements());
+    return proto;
+}
+
+v1::MeshSummary to_proto(const MeshReport& report) {
+    v1::MeshSummary proto;
+    proto.set_vertices(report.vertices);
+    proto.set_faces(report.faces);
+    proto.set_closed(report.closed);
+    proto.set_components(report.components);
+    proto.set_genus(report.genus);
+    proto.set_boundary_edges(report.boundary_edges);
+    *proto.mutable_bounding_box() = to_proto(report.box);
+    *proto.mutable_quality() = to_proto(report.quality);
+    for (const Finding& finding : report.findings) *proto.add_findings() = to_proto(finding);
+    return proto;
+}
+
+v1::Violation to_proto(const Violation& violation) {
+    v1::Violation proto;
+    proto.set_bound(violation.bound);
+    proto.set_limit(violation.limit);
+    proto.set_worst(violation.worst);
+    proto.set_count(violation.count);
+    add_elements(violation.elements, *proto.mutable_elements());
+    proto.set_reason(sentence(violation.reason));
+    return proto;
+}
+
+v1::Progress to_proto(const Progress& progress) {
+    v1::Progress proto;
+    proto.set_stage(std::string(progress.stage));
+    proto.set_fraction(progress.fraction);
+    proto.set_faces(progress.faces);
+    return proto;
+}
+
+v1::Mode to_proto(std::optional<Mode> mode) {
+    if (!mode) return v1::MODE_UNSPECIFIED;
+    return *mode == Mode::kStrict ? v1::STRICT : v1::EXTENDED;
+}
+
+Expected<std::optional<Mode>> from_proto(v1::Mode mode) {
+    switch (mode) {
+        case v1::MODE_UNSPECIFIED:
+            return std::optional<Mode>();
+        case v1::STRICT:
+            return std::optional(Mode::kStrict);
+        case v1::EXTENDED:
+            return std::optional(Mode::kExtended);
+        default:
+            return unknown_number("mode", mode, "MODE_UNSPECIFIED, STRICT or EXTENDED");
+    }
+}
+
+v1::ImproveOptions to_proto(const ImproveOptions& options) {
+    v1::ImproveOptions proto;
+    if (options.subdivision_size) proto.set_subdivision_size(*options.subdivision_size);
+    set_common(options, proto);
+    return proto;
+}
+
+v1::ControlOptions to_proto(const ControlOptions& options) {
+    v1::ControlOptions proto;
+    if (options.subdivisions) proto.set_subdivisions(*options.subdivisions);
+    if (options.min_stretch) proto.set_min_stretch(*options.min_stretch);
+    if (options.max_size) proto.set_max_size(*options.max_size);
+    if (options.max_valence) proto.set_max_valence(*options.max_valence);
+    set_common(options, proto);
+    return proto;
+}
+
+Expected<ImproveOptions> from_proto(const v1::ImproveOptions& options) {
+    ImproveOptions result;
+    if (options.has_subdivision_size()) result.subdivision_size = options.subdivision_size();
+    if (Status common = get_common(options, result); !common) return common.error();
+    return result;
+}
+
+Expected<ControlOptions> from_proto(const v1::ControlOptions& options) {
+    ControlOptions result;
+    if (options.has_subdivisions()) result.subdivisions = options.subdivisions();
+    if (options.has_min_stretch()) result.min_stretch = options.min_stretch();
+    if (options.has_max_size()) result.max_size = options.max_size();
+    if (options.has_max_valence()) result.max_valence = options.max_valence();
+    if (Status common = get_common(options, result); !common) return common.error();
+    return result;
+}
+
+v1::MeshFormat to_proto(std::optional<MeshFormat> format) {
+    if (!format) return v1::MESH_FORMAT_UNSPECIFIED;
+    switch (*format) {
+        case MeshFormat::kStlBinary:
+            return v1::STL;
+        case MeshFormat::kStlAscii:
+            return v1::STL_ASCII;
+        case MeshFormat::kObj:
+            return v1::OBJ;
+        case MeshFormat::kPlyBinary:
+            return v1::PLY;
+        case MeshFormat::kPlyAscii:
+            return v1::PLY_ASCII;
+        case MeshFormat::kOff:
+            return v1::OFF;
+    }
+    return v1::MESH_FORMAT_UNSPECIFIED;
+}
+
+Expected<std::optional<MeshFormat>> from_proto(v1::MeshFormat format) {
+    switch (format) {
+        case v1::MESH_FORMAT_UNSPECIFIED:
+            return std::optional<MeshFormat>();
+        case v1::STL:
+            return std::optional(MeshFormat::kStlBinary);
+        case v1::STL_ASCII:
+            return std::optional(MeshFormat::kStlAscii);
+        case v1::OBJ:
+            return std::optional(MeshFormat::kObj);
+        case v1::PLY:
+            return std::optional(MeshFormat::kPlyBinary);
+        case v1::PLY_ASCII:
+            return std::optional(MeshFormat::kPlyAscii);
+        case v1::OFF:
+            return std::optional(MeshFormat::kOff);
+        default:
+            return unknown_number("format", format,
+                                  "STL, STL_ASCII, OBJ, PLY, PLY_ASCII, OFF, or none to tell it from the bytes");
+    }
+}
+
+Status check_repair(v1::Repair repair) {
+    switch (repair) {
+        case v1::REPAIR_UNSPECIFIED:
+        case v1::NONE:
+            return Done{};
+        case v1::SAFE:
+        case v1::FULL:
+            return Error{Cause::kUnsupported,
+                         "repair " + v1::Repair_Name(repair) + " is not offered by this version; accepted is NONE", "repair"};
+        default:
+            return unknown_number("repair", repair, "NONE");
+    }
+}
+
+v1::RecordEncoding to_proto(RecordEncoding encoding) {
+    switch (encoding) {
+        case RecordEncoding::kFloat64:
+            return v1::FLOAT64;
+    }
+    return v1::RECORD_ENCODING_UNSPECIFIED;
+}
+
+Expected<RecordEncoding> from_proto(v1::RecordEncoding encoding) {
+    switch (encoding) {
+        case v1::RECORD_ENCODING_UNSPECIFIED:
+        case v1::FLOAT64:
+            return RecordEncoding::kFloat64;
+        default:
+            return unknown_number("encoding", encoding, "FLOAT64");
+    }
+}
+
+v1::RecordBlock to_proto(RecordBlock block) {
+    v1::RecordBlock proto;
+    proto.set_first(block.first);
+    proto.set_count(block.count);
+    proto.set_encoding(to_proto(block.encoding));
+    proto.set_payload(std::move(block.payload));
+    proto.set_crc32c(block.crc32c);
+    return proto;
+}
+
+Expected<RecordBlock> from_proto(v1::RecordBlock block) {
+    Expected<RecordEncoding> encoding = from_proto(block.encoding());
+    if (!encoding) {
+        return Error{Cause::kCorrupt, "record block of split " + std::to_string(block.first()) + ": " + encoding.error().message,
+                     ""};
+    }
+    return RecordBlock{block.first(), block.count(), *encoding, std::move(*block.mutable_payload()), block.crc32c()};
+}
+
+}  // namespace vsplit::wire

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "vsplit/base/execution_context.h"
+#include "vsplit/base/expected.h"
+#include "vsplit/io/mesh_format.h"
+#include "vsplit/mesh/inspect.h"
+#include "vsplit/method/method_options.h"
+#include "vsplit/method/method_result.h"
+#include "vsplit/mrr/record_block.h"
+#include "vsplit/quality/mesh_quality.h"
+#include "vsplit/v1/meshing.pb.h"
+
+/// Core's values as messages (to_proto) and back (from_proto). Every function is O(size of its argument).
+namespace vsplit::wire {
+
+[[nodiscard]] v1::Vector to_proto(const Vec3& point);
+
+/// An empty box has neither corner.
+[[nodiscard]] v1::BoundingBox to_proto(const BoundingBox& box);
+
+/// `worst` becomes worst_faces.
+[[nodiscard]] v1::Quality to_proto(const Quality& quality, std::span<const FaceQuality> worst = {});
+
+[[nodiscard]] v1::Finding to_proto(const Finding& finding);
+
+[[nodiscard]] v1::MeshSummary to_proto(const MeshReport& report);
+
+[[nodiscard]] v1::Violation to_proto(const Violation& violation);
+
+[[nodiscard]] v1::Progress to_proto(const Progress& progress);
+
+/// Empty becomes MODE_UNSPECIFIED.
+[[nodiscard]] v1::Mode to_proto(std::optional<Mode> mode);
+
+/// MODE_UNSPECIFIED becomes empty. \return INVALID_OPTION (field "mode") for a number that is no mode.
+[[nodiscard]] Expected<std::optional<Mode>> from_proto(v1::Mode mode);
+
+[[nodiscard]] v1::ImproveOptions to_proto(const ImproveOptions& options);
+[[nodiscard]] v1::ControlOptions to_proto(const ControlOptions& options);
+
+/// Fields that are absent stay empty; ranges are for check_options. \return INVALID_OPTION for a mode that is none.
+[[nodiscard]] Expected<ImproveOptions> from_proto(const v1::ImproveOptions& options);
+[[nodiscard]] Expected<ControlOptions> from_proto(const v1::ControlOptions& options);
+
+/// Empty becomes MESH_FORMAT_UNSPECIFIED.
+[[nodiscard]] v1::MeshFormat to_proto(std::optional<MeshFormat> format);
+
+/// MESH_FORMAT_UNSPECIFIED becomes empty. \return INVALID_OPTION (field "format") for a number that is no format.
+[[nodiscard]] Expected<std::optional<MeshFormat>> from_proto(v1::MeshFormat format);
+
+/// What this version makes of a repair: INVALID_OPTION for a number that is none, UNSUPPORTED for SAFE and FULL.
+[[nodiscard]] Status check_repair(v1::Repair repair);
+
+[[nodiscard]] v1::RecordEncoding to_proto(RecordEncoding encoding);
+
+/// Unspecified becomes kFloat64. \return INVALID_OPTION (field "encoding") for one this version does not know.
+[[nodiscard]] Expected<RecordEncoding> from_proto(v1::RecordEncoding encoding);
+
+/// Takes the payload over instead of copying it where the argument is given away.
+[[nodiscard]] v1::RecordBlock to_proto(RecordBlock block);
+
+/// \return CORRUPT for an unknown encoding; the rest is for decode_block to check.
+[[nodiscard]] Expected<RecordBlock> from_proto(v1::RecordBlock block);
+
+}  // namespace vsplit::wire

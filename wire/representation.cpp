@@ -1,0 +1,73 @@
+#include "wire/representation.h"
+
+#include <cmath>
+
+#include "vsplit/method/control.h"
+#include "wire/convert.h"
+
+namespace vsplit::wire {
+namespace {
+
+google::protobuf::Duration to_duration(std::chrono::duration<double> elapsed) {
+    const double whole = std::floor(elapsed.count());
+    google::protobuf::Duration proto;
+    proto.set_seconds(static_cast<std::int64_t>(whole));
+    proto.set_nanos(static_cast<std::int32_t>((elapsed.count() - whole) * 1e9));
+    return proto;
+}
+
+void set_options(const ImproveOptions& options, v1::Representation& proto) {
+    proto.set_method(v1::IMPROVE);
+    *proto.mutable_improve_options() = to_proto(options);
+    proto.set_mode(to_proto(options.mode.value_or(Mode::kStrict)));
+}
+
+void set_options(const ControlOptions& options, v1::Representation& proto) {
+    proto.set_method(v1::CONTROL);
+    *proto.mutable_control_options() = to_proto(options);
+    proto.set_mode(to_proto(options.mode.value_or(Mode::kStrict)));
+}
+
+void set_violations(const std::vector<Violation>& violations, v1::Representation& proto) {
+    proto.clear_violations();
+    proto.set_bounds_satisfied(violations.empty());
+    for (const Violation& violation : violations) *proto.add_violations() = to_proto(violation);
+}
+
+std::string reason_of(const v1::Representation& representation, const std::string& bound) {
+    for (const v1::Violation& violation : representation.violations()) {
+        if (violation.bound() == bound) return violation.reason();
+    }
+    return "the bounds were aimed at for another resolution of this representation";
+}
+
+}  // namespace
+
+v1::Representation describe(const std::string& id, const std::string& source_representation, std::uint32_t source_faces,
+                            const MethodOptions& options, const MethodResult& result) {
+    v1::Representation proto;
+    proto.set_id(id);
+    proto.mutable_source()->set_representation(source_representation);
+    proto.mutable_source()->set_faces(source_faces);
+    std::visit([&](const auto& o) { set_options(o, proto); }, options);
+    proto.set_faces_min(result.mrr.faces_min());
+    proto.set_faces_max(result.mrr.faces_max());
+    proto.set_faces(result.faces);
+    *proto.mutable_quality() = to_proto(result.quality);
+    set_violations(result.violations, proto);
+    *proto.mutable_elapsed() = to_duration(result.elapsed);
+    return proto;
+}
+
+void describe_resolution(const TriangleMesh& mesh, v1::Representation& representation) {
+    representation.set_faces(mesh.face_count());
+    *representation.mutable_quality() = to_proto(measure_quality(mesh));
+    if (!representation.has_control_options()) return;
+    const Expected<ControlOptions> options = from_proto(representation.control_options());
+    if (!options) return;  // a mode of a later version: its bounds cannot be judged here
+    std::vector<Violation> violations = find_violations(mesh, *options);
+    for (Violation& violation : violations) violation.reason = reason_of(representation, violation.bound);
+    set_violations(violations, representation);
+}
+
+}  // namespace vsplit::wire
