@@ -168,6 +168,9 @@ TEST(MrrFileTest, BaseMeshMustBeClosedAndSound) {
     not_finite.mrr.base.positions[0].x() = std::numeric_limits<double>::quiet_NaN();
     expect_error(encode_mrr(not_finite), Cause::kCorrupt, "byte 40: the base mesh");
     expect_error(encode_mrr(StoredMrr()), Cause::kCorrupt, "byte 40: the base mesh");
+    StoredMrr too_large = example();  // finite, but its squares are not
+    too_large.mrr.base.positions[0].x() = 1e300;
+    expect_error(encode_mrr(too_large), Cause::kCorrupt, "byte 40: the base mesh");
 }
 
 TEST(MrrFileTest, SplitsMustFitTheMesh) {

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <string>
 
+#include "mesh/coordinate.h"
 #include "mesh/half_edges.h"
 #include "vsplit/mesh/inspect.h"
 
@@ -24,8 +25,8 @@ Status check_indices_and_coordinates(const TriangleMesh& mesh) {
         }
     }
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-        if (!mesh.positions[v].allFinite()) {
-            return Error{Cause::kInvalidCoordinate, "base mesh: vertex " + std::to_string(v) + " has a coordinate that is not finite", ""};
+        if (!is_valid_position(mesh.positions[v])) {
+            return Error{Cause::kInvalidCoordinate, "base mesh: vertex " + std::to_string(v) + " has a coordinate that is not finite or beyond 1e15", ""};
         }
     }
     return Done{};
@@ -46,7 +47,9 @@ Status ProgressiveMesh::check(const VertexSplit& split) const {
     if (split.anchor >= twin_.size()) {
         return corrupt(level(), "anchor " + std::to_string(split.anchor) + " is no corner; the mesh has " + std::to_string(twin_.size()));
     }
-    if (!split.kept.allFinite() || !split.added.allFinite()) return corrupt(level(), "a coordinate is not finite");
+    if (!is_valid_position(split.kept) || !is_valid_position(split.added)) {
+        return corrupt(level(), "a coordinate is not finite or beyond 1e15");
+    }
     if (split.steps == 0) return corrupt(level(), "0 steps; at least one face must move");
     HalfEdge corner = split.anchor;
     for (std::uint32_t step = 0; step < split.steps; ++step) {

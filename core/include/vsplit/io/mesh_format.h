@@ -14,7 +14,7 @@ enum class MeshFormat {
     kStlBinary,
     kStlAscii,
     kObj,
-    kPlyBinary,   ///< little-endian when written; both byte orders are read
+    kPlyBinary,  ///< little-endian when written; both byte orders are read
     kPlyAscii,
     kOff,
 };

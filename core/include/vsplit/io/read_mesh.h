@@ -14,9 +14,9 @@
 namespace vsplit {
 
 struct ReadOptions {
-    std::optional<MeshFormat> format{};        ///< told from the bytes when empty; when given, bytes of another format are an error
-    double weld = 0;                           ///< length, model units, >= 0; 0 merges exactly equal vertices. See `weld`.
-    std::uint32_t max_faces = 50'000'000;      ///< LIMIT_EXCEEDED beyond; checked against headers before memory is taken
+    std::optional<MeshFormat> format{};    ///< told from the bytes when empty; when given, bytes of another format are an error
+    double weld = 0;                       ///< length, model units, >= 0; 0 merges exactly equal vertices. See `weld`.
+    std::uint32_t max_faces = 50'000'000;  ///< LIMIT_EXCEEDED beyond; checked against headers before memory is taken
 };
 
 /// A mesh as it was in the file, welded. Polygons are cut into fans of triangles.

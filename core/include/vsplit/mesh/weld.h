@@ -9,9 +9,9 @@ namespace vsplit {
 
 /// What a weld changed.
 struct WeldCounts {
-    std::uint32_t merged_vertices = 0;   ///< vertices that became another one
-    std::uint32_t unused_vertices = 0;   ///< vertices no face used, dropped
-    std::uint32_t collapsed_faces = 0;   ///< faces with two equal corners after merging, dropped: they have no area and no inside
+    std::uint32_t merged_vertices = 0;  ///< vertices that became another one
+    std::uint32_t unused_vertices = 0;  ///< vertices no face used, dropped
+    std::uint32_t collapsed_faces = 0;  ///< faces with two equal corners after merging, dropped: they have no area and no inside
 };
 
 /// Merges vertices that are equal (`tolerance` 0; -0 equals 0), or within `tolerance` (length, model units) of a vertex that

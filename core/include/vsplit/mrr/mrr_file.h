@@ -14,8 +14,8 @@ namespace vsplit {
 /// A `.vsplit` file (docs/format.md): an MRR, the resolution its maker chose, and a text that describes how it was made.
 struct StoredMrr {
     MultiresMesh mrr;
-    std::uint32_t faces = 0;    ///< the resolution to show first
-    std::string description;    ///< proto3 JSON of a vsplit.v1.Representation when written by `vsplit`; opaque to core
+    std::uint32_t faces = 0;  ///< the resolution to show first
+    std::string description;  ///< proto3 JSON of a vsplit.v1.Representation when written by `vsplit`; opaque to core
 };
 
 /// The bytes of a `.vsplit` file; the same input gives the same bytes. O(splits).

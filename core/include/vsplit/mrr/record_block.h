@@ -13,12 +13,13 @@ namespace vsplit {
 
 /// How the splits of a block are laid out as bytes (docs/format.md).
 enum class RecordEncoding : std::uint32_t {
-    kFloat64 = 1,   ///< bit-exact: columns of anchor (u32), steps (u32), kept (3 f64), added (3 f64), little-endian; 56 bytes a split
+    kFloat64 =
+        1,  ///< bit-exact: columns of anchor (u32), steps (u32), kept (3 f64), added (3 f64), little-endian; 56 bytes a split
 };
 
 /// A run of splits as it travels and as it is stored.
 struct RecordBlock {
-    std::uint32_t first = 0;   ///< number of the first split
+    std::uint32_t first = 0;  ///< number of the first split
     std::uint32_t count = 0;
     RecordEncoding encoding = RecordEncoding::kFloat64;
     std::string payload;
