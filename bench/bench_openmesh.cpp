@@ -3,17 +3,16 @@
 ///
 ///     bench_openmesh MESH [--faces DENSE] [--keep SHARE] [--rounds N]
 
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
+#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
-
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
-#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
 #include "vsplit/vsplit.h"
 
@@ -53,7 +52,8 @@ vsplit::TriangleMesh densify(const vsplit::TriangleMesh& mesh, std::uint32_t fac
 
 Outcome run_vsplit(const vsplit::TriangleMesh& dense, std::uint32_t target) {
     const double diagonal = vsplit::bounding_box(dense).diagonal();
-    const vsplit::ImproveOptions options{.subdivision_size = diagonal, .tolerance = 0.01 * diagonal, .faces = target, .faces_min = target};
+    const vsplit::ImproveOptions options{
+        .subdivision_size = diagonal, .tolerance = 0.01 * diagonal, .faces = target, .faces_min = target};
     const vsplit::ExecutionContext context({}, 1);
     const auto start = Clock::now();
     const auto result = vsplit::improve(dense, options, {}, context);
@@ -114,9 +114,9 @@ const Outcome& median(std::vector<Outcome>& outcomes) {
 }
 
 void print(const char* name, const Outcome& o) {
-    std::printf("%-28s %8.3f s %10.0f faces/s   stretch mean %.3f min %.4f p01 %.3f, under 0.2: %u, valence max %u\n", name, o.seconds,
-                o.rate(), o.quality.stretch_mean, o.quality.stretch_min, o.quality.stretch_p01, o.quality.faces_below_02,
-                o.quality.valence_max);
+    std::printf("%-28s %8.3f s %10.0f faces/s   stretch mean %.3f min %.4f p01 %.3f, under 0.2: %u, valence max %u\n", name,
+                o.seconds, o.rate(), o.quality.stretch_mean, o.quality.stretch_min, o.quality.stretch_p01,
+                o.quality.faces_below_02, o.quality.valence_max);
 }
 
 int usage() {
@@ -158,8 +158,8 @@ int main(int argc, char** argv) {
     }
     const vsplit::TriangleMesh dense = densify(read->mesh, options.dense_faces);
     const auto target = static_cast<std::uint32_t>(dense.face_count() * options.keep);
-    std::printf("%s: %u faces, subdivided to %u, asked for %u; one thread each, %d rounds in turn, medians\n", options.mesh.c_str(),
-                read->mesh.face_count(), dense.face_count(), target, options.rounds);
+    std::printf("%s: %u faces, subdivided to %u, asked for %u; one thread each, %d rounds in turn, medians\n",
+                options.mesh.c_str(), read->mesh.face_count(), dense.face_count(), target, options.rounds);
     std::vector<Outcome> ours;
     std::vector<Outcome> theirs;
     for (int round = 0; round < options.rounds; ++round) {

@@ -44,12 +44,12 @@ std::string reason_of(const v1::Representation& representation, const std::strin
 }  // namespace
 
 v1::Representation describe(const std::string& id, const std::string& source_representation, std::uint32_t source_faces,
-                            const MethodOptions& options, const MethodResult& result) {
+                            const MethodResult& result) {
     v1::Representation proto;
     proto.set_id(id);
     proto.mutable_source()->set_representation(source_representation);
     proto.mutable_source()->set_faces(source_faces);
-    std::visit([&](const auto& o) { set_options(o, proto); }, options);
+    std::visit([&](const auto& o) { set_options(o, proto); }, result.options);
     proto.set_faces_min(result.mrr.faces_min());
     proto.set_faces_max(result.mrr.faces_max());
     proto.set_faces(result.faces);

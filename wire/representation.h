@@ -1,21 +1,16 @@
 #pragma once
 
 #include <string>
-#include <variant>
 
-#include "vsplit/method/method_options.h"
 #include "vsplit/method/method_result.h"
 #include "vsplit/v1/meshing.pb.h"
 
 namespace vsplit::wire {
 
-/// The options of either method; which one says which method it was.
-using MethodOptions = std::variant<ImproveOptions, ControlOptions>;
-
-/// The message about what a method made. `options` are those used, defaults filled in (default_options).
+/// The message about what a method made.
 /// `source_representation` is empty, and `source_faces` the mesh's own count, where the upload was worked on. O(1).
 [[nodiscard]] v1::Representation describe(const std::string& id, const std::string& source_representation,
-                                          std::uint32_t source_faces, const MethodOptions& options, const MethodResult& result);
+                                          std::uint32_t source_faces, const MethodResult& result);
 
 /// Moves the figures of a Representation to another of its resolutions, whose mesh is given: faces, quality, and, for CONTROL,
 /// what breaks its bounds there. What the method said of a bound stays its reason. O(faces log faces).

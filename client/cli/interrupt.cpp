@@ -17,7 +17,7 @@ InterruptWatch::InterruptWatch() {
 
 InterruptWatch::~InterruptWatch() {
     done_ = true;
-    pthread_kill(thread_.native_handle(), SIGTERM);  // only wakes the thread: it is blocked everywhere
+    pthread_kill(thread_.native_handle(), SIGINT);  // only wakes the thread: it is blocked everywhere
     thread_.join();
     pthread_sigmask(SIG_SETMASK, &blocked_before_, nullptr);
 }

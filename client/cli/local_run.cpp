@@ -30,25 +30,17 @@ Status check_arguments(const Arguments& a) {
     return wire::check_repair(a.repair);
 }
 
+Expected<ReadResult> read_mesh_input(const Arguments& a) { return read_mesh_file(a.input, {.weld = a.weld}); }
+
 Expected<TriangleMesh> read_source(const Arguments& a) {
     if (is_representation_file(a.input)) {
         Expected<Outcome> stored = load_representation(a.input, a.source_faces);
         if (!stored) return stored.error();
         return *std::move(stored->mesh);
     }
-    ReadOptions options;
-    options.weld = a.weld;
-    Expected<ReadResult> read = read_mesh_file(a.input, options);
+    Expected<ReadResult> read = read_mesh_input(a);
     if (!read) return read.error();
     return std::move(read->mesh);
-}
-
-/// `options` with its defaults for this mesh.
-ImproveOptions filled_in(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits) {
-    return default_options(mesh, options, limits);
-}
-ControlOptions filled_in(const TriangleMesh& mesh, const ControlOptions& options, const MethodLimits& /*limits*/) {
-    return default_options(mesh, options);
 }
 
 using MethodFunction = std::function<Expected<MethodResult>(const TriangleMesh&, const MethodLimits&, const ExecutionContext&)>;
@@ -64,7 +56,7 @@ Expected<Outcome> run_method(const Arguments& a, const Options& options, const M
     const MethodLimits limits;
     Expected<MethodResult> result = method(*source, limits, context);
     if (!result) return result.error();
-    v1::Representation made = wire::describe("", "", source->face_count(), filled_in(*source, options, limits), *result);
+    v1::Representation made = wire::describe("", "", source->face_count(), *result);
     TriangleMesh mesh = mesh_at(result->mrr, result->mrr.level_for(result->faces));
     return Outcome{std::move(made), std::move(mesh), std::move(result->mrr)};
 }
@@ -91,11 +83,11 @@ Expected<Outcome> describe_mesh(const Arguments& a) {
     if (a.faces) {
         return Error{Cause::kInvalidOption, "a mesh has one resolution; accepted with a .vsplit file only", "faces"};
     }
-    Expected<TriangleMesh> mesh = read_source(a);
-    if (!mesh) return mesh.error();
-    v1::MeshSummary summary = wire::to_proto(inspect(*mesh));
-    if (a.verb == Verb::kQuality) add_worst_faces(*mesh, *summary.mutable_quality());
-    return Outcome{std::move(summary), *std::move(mesh), {}};
+    Expected<ReadResult> read = read_mesh_input(a);
+    if (!read) return read.error();
+    v1::MeshSummary summary = wire::to_proto(inspect(read->mesh, read->weld));
+    if (a.verb == Verb::kQuality) add_worst_faces(read->mesh, *summary.mutable_quality());
+    return Outcome{std::move(summary), std::move(read->mesh), {}};
 }
 
 Expected<Outcome> describe_representation(const Arguments& a) {

@@ -10,30 +10,30 @@ namespace {
 
 /// The option that fills a field; empty where there is none. Fields are named in the contract, options on the command line.
 std::string option_of(const std::string& field) {
-    static const std::map<std::string_view, std::string_view> kOptions{{"subdivision_size", "--subdivide"},
-                                                                       {"tolerance", "--tolerance"},
-                                                                       {"max_deviation", "--max-deviation"},
-                                                                       {"feature_angle", "--feature-angle"},
-                                                                       {"feature_weight", "--feature-weight"},
-                                                                       {"faces", "--faces"},
-                                                                       {"faces_min", "--faces-min"},
-                                                                       {"mode", "--mode"},
-                                                                       {"subdivisions", "--subdivisions"},
-                                                                       {"min_stretch", "--min-stretch"},
-                                                                       {"max_size", "--max-size"},
-                                                                       {"max_valence", "--max-valence"},
-                                                                       {"weld", "--weld"},
-                                                                       {"repair", "--repair"},
-                                                                       {"format", "--format"},
-                                                                       {"server", "--server"},
-                                                                       {"session", "--session"},
-                                                                       {"representation", "--representation"},
-                                                                       {"keep", "--keep"},
-                                                                       {"source_faces", "--source-faces"},
-                                                                       {"output", "-o"},
-                                                                       {"input", "IN"}};
-    const auto found = kOptions.find(field);
-    return found == kOptions.end() ? std::string() : std::string(found->second);
+    static const std::map<std::string_view, std::string_view> options{{"subdivision_size", "--subdivide"},
+                                                                      {"tolerance", "--tolerance"},
+                                                                      {"max_deviation", "--max-deviation"},
+                                                                      {"feature_angle", "--feature-angle"},
+                                                                      {"feature_weight", "--feature-weight"},
+                                                                      {"faces", "--faces"},
+                                                                      {"faces_min", "--faces-min"},
+                                                                      {"mode", "--mode"},
+                                                                      {"subdivisions", "--subdivisions"},
+                                                                      {"min_stretch", "--min-stretch"},
+                                                                      {"max_size", "--max-size"},
+                                                                      {"max_valence", "--max-valence"},
+                                                                      {"weld", "--weld"},
+                                                                      {"repair", "--repair"},
+                                                                      {"format", "--format"},
+                                                                      {"server", "--server"},
+                                                                      {"session", "--session"},
+                                                                      {"representation", "--representation"},
+                                                                      {"keep", "--keep"},
+                                                                      {"source_faces", "--source-faces"},
+                                                                      {"output", "-o"},
+                                                                      {"input", "IN"}};
+    const auto found = options.find(field);
+    return found == options.end() ? std::string() : std::string(found->second);
 }
 
 }  // namespace

@@ -51,12 +51,14 @@ public:
 
     void OnCancel() override {
         note_cancelled();
-        if (source_) source_->cancel();
+        if (const std::shared_ptr<Source> source = current_source()) source->cancel();
         wake();
     }
 
     void OnDone() override {
-        const std::shared_ptr<PullStream> last = std::move(self_);  // may delete this at the end of the scope
+        std::shared_ptr<PullStream> last;  // may delete this at the end of the scope, when the lock is released
+        const std::lock_guard lock(mutex_);
+        last.swap(self_);
     }
 
 private:
@@ -128,11 +130,24 @@ private:
     // The owner keeps the ownership for good: nothing is written after this.
     void finish(const grpc::Status& status) {
         watch_.finished(status);
+        drop_source();
         this->Finish(status);
     }
 
+    // What the source holds is freed now, not when the client has heard of the end.
+    void drop_source() {
+        std::shared_ptr<Source> dropped;  // dies when the lock is released
+        const std::lock_guard lock(mutex_);
+        dropped.swap(source_);
+    }
+
+    [[nodiscard]] std::shared_ptr<Source> current_source() {
+        const std::lock_guard lock(mutex_);
+        return source_;
+    }
+
     const RpcWatch watch_;
-    SourcePointer source_;
+    std::shared_ptr<Source> source_;
     Message message_;
     std::mutex mutex_;
     bool busy_ = true;

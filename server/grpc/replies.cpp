@@ -29,8 +29,7 @@ v1::Session to_proto(const service::SessionSnapshot& session) {
 
 v1::Representation to_proto(const service::Representation& representation) {
     const service::MeshRef& source = representation.source();
-    return wire::describe(representation.id(), source.representation, source.faces, representation.options(),
-                          representation.result());
+    return wire::describe(representation.id(), source.representation, source.faces, representation.result());
 }
 
 v1::Representation to_proto(const service::Representation& representation, std::size_t level) {

@@ -39,10 +39,14 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     app.option_defaults()->always_capture_default();
     app.set_version_flag("--version", "vsplitd " VSPLIT_VERSION);
     app.add_option("--listen", options.listen, "HOST:PORT to serve at; port 0 takes a free one");
-    app.add_option("--workers", options.service.workers, "Methods that run at a time; 0: one a core")->check(CLI::Range(0U, kMostThreads));
-    app.add_option("--threads", options.service.threads, "Threads of one method; 0: all cores")->check(CLI::Range(0U, kMostThreads));
+    app.add_option("--workers", options.service.workers, "Methods that run at a time; 0: one a core")
+        ->check(CLI::Range(0U, kMostThreads));
+    app.add_option("--threads", options.service.threads, "Threads of one method; 0: all cores")
+        ->check(CLI::Range(0U, kMostThreads));
     app.add_option("--session-ttl", ttl, "Seconds that an unused session lives")->check(CLI::Range(std::int64_t{1}, kLongestTtl));
-    app.add_option("--log-level", options.log_level, "What is logged to stderr")->transform(CLI::CheckedTransformer(kLevels).description(""))->option_text("LEVEL=info: debug, info, warning, error or off");
+    app.add_option("--log-level", options.log_level, "What is logged to stderr")
+        ->transform(CLI::CheckedTransformer(kLevels).description(""))
+        ->option_text("LEVEL=info: debug, info, warning, error or off");
     add_limits(app, options.service.limits);
     try {
         app.parse(argc, argv);

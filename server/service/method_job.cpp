@@ -40,7 +40,7 @@ JobOutcome MethodJob::compute() {
     Expected<MethodResult> result = std::visit([&](const auto& options) { return apply(options, *mesh); }, options_);
     if (!result) return result.error();
     if (const std::optional<Error> why = stopped()) return *why;
-    return session_->add_representation(source_.ref(), options_as_used(*mesh), *std::move(result));
+    return session_->add_representation(source_.ref(), *std::move(result));
 }
 
 Expected<MethodResult> MethodJob::apply(const ImproveOptions& options, const TriangleMesh& mesh) {
@@ -49,13 +49,6 @@ Expected<MethodResult> MethodJob::apply(const ImproveOptions& options, const Tri
 
 Expected<MethodResult> MethodJob::apply(const ControlOptions& options, const TriangleMesh& mesh) {
     return control(mesh, options, limits_, context_);
-}
-
-MethodOptions MethodJob::options_as_used(const TriangleMesh& mesh) const {
-    if (const auto* improve_options = std::get_if<ImproveOptions>(&options_)) {
-        return default_options(mesh, *improve_options, limits_);
-    }
-    return default_options(mesh, std::get<ControlOptions>(options_));
 }
 
 std::optional<Error> MethodJob::stopped() const {

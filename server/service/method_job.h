@@ -34,7 +34,6 @@ private:
     [[nodiscard]] JobOutcome compute();
     [[nodiscard]] Expected<MethodResult> apply(const ImproveOptions& options, const TriangleMesh& mesh);
     [[nodiscard]] Expected<MethodResult> apply(const ControlOptions& options, const TriangleMesh& mesh);
-    [[nodiscard]] MethodOptions options_as_used(const TriangleMesh& mesh) const;
     [[nodiscard]] std::optional<Error> stopped() const;
     void tell(const Progress& progress);
 

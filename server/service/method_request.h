@@ -14,9 +14,6 @@ struct MeshRef {
     std::uint32_t faces = 0;     ///< 0: the resolution the representation was made for; the upload has but one
 };
 
-/// Which of the two methods, by what it may be asked for.
-using MethodOptions = std::variant<ImproveOptions, ControlOptions>;
-
 /// A method to run in a session.
 struct MethodRequest {
     MeshRef source;

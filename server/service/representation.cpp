@@ -12,12 +12,8 @@ constexpr std::size_t kCachedMeshes = 2;
 
 }  // namespace
 
-Representation::Representation(std::string id, MeshRef source, MethodOptions options, MethodResult result)
-    : id_(std::move(id)),
-      source_(std::move(source)),
-      options_(std::move(options)),
-      result_(std::move(result)),
-      meshes_(kCachedMeshes) {}
+Representation::Representation(std::string id, MeshRef source, MethodResult result)
+    : id_(std::move(id)), source_(std::move(source)), result_(std::move(result)), meshes_(kCachedMeshes) {}
 
 std::size_t Representation::level_for(std::uint32_t faces) const { return mrr().level_for(faces == 0 ? result_.faces : faces); }
 

@@ -17,12 +17,11 @@ namespace vsplit::service {
 /// levels asked for last are kept. Thread-safe.
 class Representation {
 public:
-    /// `source` and `options` as used, defaults filled in.
-    Representation(std::string id, MeshRef source, MethodOptions options, MethodResult result);
+    /// `source` as used, defaults filled in.
+    Representation(std::string id, MeshRef source, MethodResult result);
 
     [[nodiscard]] const std::string& id() const { return id_; }
     [[nodiscard]] const MeshRef& source() const { return source_; }
-    [[nodiscard]] const MethodOptions& options() const { return options_; }
     [[nodiscard]] const MethodResult& result() const { return result_; }
     [[nodiscard]] const MultiresMesh& mrr() const { return result_.mrr; }
 
@@ -38,7 +37,6 @@ public:
 private:
     const std::string id_;
     const MeshRef source_;
-    const MethodOptions options_;
     const MethodResult result_;
     mutable LruCache<TriangleMesh> meshes_;
 };

@@ -61,12 +61,10 @@ Status Session::set_source(std::shared_ptr<const SourceMesh> source) {
     return Done{};
 }
 
-Expected<SessionSnapshot::RepresentationPointer> Session::add_representation(MeshRef source, MethodOptions options,
-                                                                             MethodResult result) {
+Expected<SessionSnapshot::RepresentationPointer> Session::add_representation(MeshRef source, MethodResult result) {
     const std::lock_guard lock(mutex_);
     if (Status open = require_open_locked(); !open) return open.error();
-    auto made = std::make_shared<const Representation>('r' + std::to_string(++made_), std::move(source), std::move(options),
-                                                       std::move(result));
+    auto made = std::make_shared<const Representation>('r' + std::to_string(++made_), std::move(source), std::move(result));
     representations_.push_back(made);
     expires_ = Clock::now() + options_.session_ttl;
     return SessionSnapshot::RepresentationPointer(std::move(made));

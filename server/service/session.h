@@ -38,8 +38,7 @@ public:
     [[nodiscard]] Status set_source(std::shared_ptr<const SourceMesh> source);
 
     /// \return NOT_FOUND when closed.
-    [[nodiscard]] Expected<SessionSnapshot::RepresentationPointer> add_representation(MeshRef source, MethodOptions options,
-                                                                                      MethodResult result);
+    [[nodiscard]] Expected<SessionSnapshot::RepresentationPointer> add_representation(MeshRef source, MethodResult result);
 
     using MakeJob = std::function<Expected<std::shared_ptr<Job>>(const SessionSnapshot&)>;
 

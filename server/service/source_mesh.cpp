@@ -20,7 +20,7 @@ Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byt
     return guarded([&]() -> Expected<std::shared_ptr<const SourceMesh>> {
         Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces});
         if (!read) return read.error();
-        MeshReport report = inspect(read->mesh);
+        MeshReport report = inspect(read->mesh, read->weld);
         return std::make_shared<const SourceMesh>(
             SourceMesh{std::make_shared<const TriangleMesh>(std::move(read->mesh)), std::move(report)});
     });

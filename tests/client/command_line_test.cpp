@@ -37,7 +37,7 @@ protected:
 
     /// A mesh of this name, written in the format of its extension.
     std::string mesh_file(const std::string& name, const TriangleMesh& mesh) {
-        const std::string path = file(name);
+        std::string path = file(name);
         EXPECT_TRUE(write_mesh_file(mesh, *format_by_extension(name), path));
         return path;
     }
@@ -52,7 +52,7 @@ protected:
 
     /// A file made by improving a part of many flat faces.
     std::string improved_file() {
-        const std::string path = file("improved.vsplit");
+        std::string path = file("improved.vsplit");
         const CommandResult made =
             run({"improve", mesh_file("frame.off", test::cube_frame()), "--subdivide", "0.3", "--faces", "1000", "-o", path});
         EXPECT_EQ(made.exit_status, 0) << made.err;

@@ -8,8 +8,9 @@
 namespace vsplit::wire {
 namespace {
 
-MethodResult a_result() {
+MethodResult a_result(const MethodOptions& options) {
     MethodResult result;
+    result.options = options;
     result.mrr.base = test::tetrahedron();
     result.mrr.splits.resize(10);
     result.faces = 12;
@@ -23,7 +24,7 @@ TEST(RepresentationTest, DescribesAnImprovement) {
     ImproveOptions options;
     options.tolerance = 0.5;
     options.mode = Mode::kStrict;
-    const v1::Representation made = describe("r1", "r0", 99, options, a_result());
+    const v1::Representation made = describe("r1", "r0", 99, a_result(options));
     EXPECT_EQ(made.id(), "r1");
     EXPECT_EQ(made.method(), v1::IMPROVE);
     EXPECT_EQ(made.source().representation(), "r0");
@@ -41,9 +42,9 @@ TEST(RepresentationTest, DescribesAnImprovement) {
 }
 
 TEST(RepresentationTest, DescribesWhatControlCouldNotMend) {
-    MethodResult result = a_result();
+    MethodResult result = a_result(ControlOptions());
     result.violations.push_back({"min_stretch", 0.2, 0.1, 3, {1, 2, 3}, "no collapse helps"});
-    const v1::Representation made = describe("r2", "", 12, ControlOptions(), result);
+    const v1::Representation made = describe("r2", "", 12, result);
     EXPECT_EQ(made.method(), v1::CONTROL);
     EXPECT_FALSE(made.bounds_satisfied());
     ASSERT_EQ(made.violations_size(), 1);
@@ -53,9 +54,9 @@ TEST(RepresentationTest, DescribesWhatControlCouldNotMend) {
 TEST(RepresentationTest, FollowsToAnotherResolution) {
     ControlOptions options;
     options.min_stretch = 0.5;
-    MethodResult result = a_result();
+    MethodResult result = a_result(options);
     result.violations.push_back({"min_stretch", 0.5, 0.4, 1, {0}, "the method's reason"});
-    v1::Representation made = describe("r3", "", 12, options, result);
+    v1::Representation made = describe("r3", "", 12, result);
 
     describe_resolution(test::icosphere(1), made);
     EXPECT_EQ(made.faces(), 80U);
@@ -63,7 +64,7 @@ TEST(RepresentationTest, FollowsToAnotherResolution) {
     EXPECT_TRUE(made.bounds_satisfied());
     EXPECT_TRUE(made.violations().empty());
 
-    v1::Representation again = describe("r3", "", 12, options, result);
+    v1::Representation again = describe("r3", "", 12, result);
     const TriangleMesh slivers = test::sliver_cylinder(16, 10);
     describe_resolution(slivers, again);
     EXPECT_FALSE(again.bounds_satisfied());

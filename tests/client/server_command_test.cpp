@@ -36,7 +36,7 @@ protected:
     [[nodiscard]] std::string file(const std::string& name) const { return (directory_.path() / name).string(); }
 
     std::string mesh_file(const std::string& name, const TriangleMesh& mesh) {
-        const std::string path = file(name);
+        std::string path = file(name);
         EXPECT_TRUE(write_mesh_file(mesh, *format_by_extension(name), path));
         return path;
     }

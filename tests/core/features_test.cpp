@@ -63,7 +63,8 @@ TEST(SharpEdgesTest, FindsTheTwelveEdgesOfACube) {
 TEST(SharpEdgesTest, WeightGrowsWithSharpness) {
     const auto largest_weight = [](const TriangleMesh& mesh) {
         double largest = 0;
-        for (const SharpEdge& edge : find_sharp_edges(mesh, face_normals(mesh), {40, 1})) largest = std::max(largest, edge.weight);
+        for (const SharpEdge& edge : find_sharp_edges(mesh, face_normals(mesh), {40, 1}))
+            largest = std::max(largest, edge.weight);
         return largest;
     };
     EXPECT_GT(largest_weight(test::tetrahedron()), 1.1 * largest_weight(test::cube()));

@@ -53,7 +53,8 @@ TEST_P(ImproveRealMesh, WithDefaultsKeepsTopologyAndBettersShape) {
     EXPECT_EQ(result.faces_subdivided, result.mrr.faces_max());
     EXPECT_TRUE(result.bounds_satisfied());
     const double before = measure_quality(mesh).stretch_mean;
-    const bool needles = GetParam().stem() == "combined_generic_twin";  // walls thinner than the coordinates' steps: no shape to gain
+    const bool needles =
+        GetParam().stem() == "combined_generic_twin";  // walls thinner than the coordinates' steps: no shape to gain
     if (before < 0.7 && !needles) {
         EXPECT_GT(result.quality.stretch_mean, before);
     }

@@ -10,7 +10,8 @@ namespace vsplit {
 namespace {
 
 const Finding* find(const MeshReport& report, Finding::Kind kind) {
-    const auto found = std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& f) { return f.kind == kind; });
+    const auto found =
+        std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& f) { return f.kind == kind; });
     return found == report.findings.end() ? nullptr : &*found;
 }
 
@@ -91,6 +92,15 @@ TEST(InspectTest, CountsDegenerateAndDuplicateFaces) {
     flat.positions[3] = (flat.positions[0] + flat.positions[1]) / 2;
     EXPECT_GE(inspect(flat).degenerate_faces, 1U);
     EXPECT_TRUE(inspect(flat).closed);
+}
+
+TEST(InspectTest, SaysWhatTheWeldDropped) {
+    const MeshReport report = inspect(test::cube(), {.merged_vertices = 5, .unused_vertices = 2, .collapsed_faces = 3});
+    const Finding* faces = find(report, Finding::Kind::kCollapsedFace);
+    ASSERT_NE(faces, nullptr);
+    EXPECT_EQ(faces->count, 3U);
+    ASSERT_NE(find(report, Finding::Kind::kUnusedVertex), nullptr);
+    EXPECT_TRUE(inspect(test::cube()).findings.empty());
 }
 
 TEST(InspectTest, AnEmptyMeshIsRefusedAsEmpty) {

@@ -38,7 +38,8 @@ TEST(ProgressiveMeshTest, EveryLevelIsAClosedManifoldOfTheSameGenus) {
             if (level == mrr.splits.size()) break;
             ASSERT_TRUE(mesh->refine({&mrr.splits[level], 1}));
         }
-        EXPECT_NEAR(surface_area(mesh->mesh()), surface_area(m.mesh), 1e-9 * surface_area(m.mesh)) << "the finest level is the source";
+        EXPECT_NEAR(surface_area(mesh->mesh()), surface_area(m.mesh), 1e-9 * surface_area(m.mesh))
+            << "the finest level is the source";
     }
 }
 

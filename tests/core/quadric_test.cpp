@@ -76,7 +76,8 @@ TEST(QuadricTest, HalfGradientIsThatOfTheError) {
 
 TEST(PlacementTest, MinimumOfThreePlanesIsTheirCorner) {
     const Vec3 corner(1, -2, 3);
-    const Quadric q = Quadric::plane(Vec3::UnitX(), corner) + Quadric::plane(Vec3::UnitY(), corner) + Quadric::plane(Vec3::UnitZ(), corner);
+    const Quadric q =
+        Quadric::plane(Vec3::UnitX(), corner) + Quadric::plane(Vec3::UnitY(), corner) + Quadric::plane(Vec3::UnitZ(), corner);
     const std::optional<Vec3> best = minimum(q);
     ASSERT_TRUE(best.has_value());
     EXPECT_NEAR((*best - corner).norm(), 0, 1e-12);

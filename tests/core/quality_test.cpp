@@ -1,5 +1,3 @@
-#include "vsplit/quality/mesh_quality.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "tests/core/meshes.h"
 #include "tests/core/random.h"
+#include "vsplit/quality/mesh_quality.h"
 #include "vsplit/quality/stretch.h"
 
 namespace vsplit {

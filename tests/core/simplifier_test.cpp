@@ -1,5 +1,3 @@
-#include "simplify/simplify.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "simplify/collapse_log.h"
 #include "simplify/edge_evaluator.h"
 #include "simplify/edge_queue.h"
+#include "simplify/simplify.h"
 #include "tests/core/meshes.h"
 #include "tests/core/random.h"
 #include "vsplit/mrr/progressive_mesh.h"
@@ -97,8 +96,9 @@ private:
 
 TEST(SimplifierTest, CollapsesInExactlyTheOrderOfTheLiteralAlgorithm) {
     const ExecutionContext context;
-    for (const TriangleMesh& mesh : {test::icosphere(2), test::torus(16, 10), test::bumpy_sphere(2, 0.05, 3), test::plate_with_holes(2),
-                                     test::sliver_cylinder(24, 6), test::joined(test::cube_frame(), test::icosphere(1), Vec3(20, 0, 0))}) {
+    for (const TriangleMesh& mesh :
+         {test::icosphere(2), test::torus(16, 10), test::bumpy_sphere(2, 0.05, 3), test::plate_with_holes(2),
+          test::sliver_cylinder(24, 6), test::joined(test::cube_frame(), test::icosphere(1), Vec3(20, 0, 0))}) {
         const SimplifyInput input = make_input(mesh, 0.05);
         const auto improved = simplify(input, ImprovePolicy{}, context);
         ASSERT_TRUE(improved);
@@ -120,7 +120,8 @@ std::vector<Triangle> faces_at(const TriangleMesh& mesh, std::uint32_t i, std::u
 }
 
 struct ByHand {
-    double q_before = 0, q_after = 0, faces_before = 0, size_before = 0, inverse_size_before = 0, faces_after = 0, sum_after = 0, min_after = 2;
+    double q_before = 0, q_after = 0, faces_before = 0, size_before = 0, inverse_size_before = 0, faces_after = 0, sum_after = 0,
+           min_after = 2;
 };
 
 /// Everything in Eqs. 7 to 9, from the definitions.
@@ -178,7 +179,8 @@ TEST(EdgeEvaluatorTest, PrioritiesAreThePapersEquations) {
         const Evaluation controlled = controlling.evaluate(h);
         if (controlled.verdict != Evaluation::Verdict::kValid) continue;
         const ByHand hand = by_hand(mesh, i, j, controlled.position);
-        const double rho = hand.inverse_size_before * policy.max_size * hand.min_after * hand.sum_after / (2 * (hand.faces_after - 1));
+        const double rho =
+            hand.inverse_size_before * policy.max_size * hand.min_after * hand.sum_after / (2 * (hand.faces_after - 1));
         EXPECT_NEAR(controlled.priority, rho, 1e-9 * rho);
     }
     EXPECT_GT(valid, 100);
@@ -252,7 +254,8 @@ TEST(SimplifierTest, SameBytesForAnyNumberOfThreads) {
 }
 
 TEST(SimplifierTest, KeepsEveryCollapseWithinTolerance) {
-    // With a tolerance of nothing a closed sphere, curved everywhere, cannot lose a vertex; a cube cut fine can, down to its corners.
+    // With a tolerance of nothing a closed sphere, curved everywhere, cannot lose a vertex; a cube cut fine can, down to its
+    // corners.
     const ExecutionContext context;
     const auto sphere = simplify(make_input(test::icosphere(3), 1e-12), ImprovePolicy{}, context);
     ASSERT_TRUE(sphere);

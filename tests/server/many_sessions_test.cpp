@@ -67,7 +67,8 @@ private:
         v1::ImproveRequest request = small_improve(id_);
         Received received = improve(stub_, request);
         ASSERT_TRUE(received.status.ok()) << received.status.error_message();
-        const Expected<MethodResult> own = vsplit::improve(mesh_, *wire::from_proto(request.options()), {}, ExecutionContext());
+        const Expected<MethodResult> own =
+            vsplit::improve(mesh_, *wire::from_proto(request.options()), {}, ExecutionContext(nullptr, 1));
         ASSERT_TRUE(own);
         EXPECT_EQ(received.representation->id(), "r1");
         EXPECT_EQ(received.representation->source().faces(), mesh_.face_count());

@@ -203,12 +203,12 @@ TEST_F(SessionStoreTest, AnUploadDropsRepresentationsAndNeverReusesAnId) {
     MethodResult result;
     result.mrr.base = test::tetrahedron();
     result.faces = 4;
-    EXPECT_EQ((*session->add_representation({}, ImproveOptions{}, result))->id(), "r1");
-    EXPECT_EQ((*session->add_representation({}, ControlOptions{}, result))->id(), "r2");
+    EXPECT_EQ((*session->add_representation({}, result))->id(), "r1");
+    EXPECT_EQ((*session->add_representation({}, result))->id(), "r2");
     EXPECT_EQ((*newest_representation(session->snapshot()))->id(), "r2");
     ASSERT_TRUE(session->set_source(source_of(test::cube())));
     EXPECT_EQ(newest_representation(session->snapshot()).error().cause, Cause::kNotReady);
-    EXPECT_EQ((*session->add_representation({}, ImproveOptions{}, result))->id(), "r3");
+    EXPECT_EQ((*session->add_representation({}, result))->id(), "r3");
     const auto unknown = find_representation(session->snapshot(), "r1");
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().field, "representation");
@@ -221,7 +221,7 @@ TEST_F(SessionStoreTest, RefusesMoreRepresentationsThanItsLimit) {
     Session session("id", 1, source_of(test::tetrahedron()), options, workers_);
     MethodResult result;
     result.mrr.base = test::tetrahedron();
-    ASSERT_TRUE(session.add_representation({}, ImproveOptions{}, result));
+    ASSERT_TRUE(session.add_representation({}, result));
     const auto refused = session.enqueue([](const SessionSnapshot&) -> Expected<std::shared_ptr<Job>> {
         ADD_FAILURE() << "no job is made when there is no room for what it makes";
         return std::shared_ptr<Job>(std::make_shared<WaitingJob>());

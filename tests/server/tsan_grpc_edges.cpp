@@ -1,12 +1,14 @@
 // Tells ThreadSanitizer how gRPC hands work from thread to thread.
 //
 // Debian's libgrpc and abseil are not instrumented, so the sanitizer does not see that what a thread did before it started an
-// operation comes before what another one does when that operation is complete, and would call every such pair a race. These
-// functions stand in front of gRPC's own and state exactly that, one operation at a time: start_batch(tag) comes before the
-// completion of the same tag. Nothing else is ordered by them, so that races of our own still show.
+// operation comes before what another one does when that operation is complete, nor that abseil's mutex is a mutex, and would
+// call every such pair a race. These functions stand in front of theirs and state exactly that: start_batch(tag) comes before the
+// completion of the same tag, an unlock before the next lock of the same mutex. Nothing else is ordered by them.
 #include <dlfcn.h>
 #include <grpc/grpc.h>
 #include <sanitizer/tsan_interface.h>
+
+#include "absl/synchronization/mutex.h"
 
 namespace {
 
@@ -41,3 +43,22 @@ grpc_event grpc_completion_queue_pluck(grpc_completion_queue* queue, void* tag, 
 }
 
 }  // extern "C"
+
+void absl::Mutex::Lock() {
+    static auto* const lock = original<void(absl::Mutex*)>("_ZN4absl7debian35Mutex4LockEv");
+    lock(this);
+    __tsan_acquire(this);
+}
+
+void absl::Mutex::Unlock() {
+    static auto* const unlock = original<void(absl::Mutex*)>("_ZN4absl7debian35Mutex6UnlockEv");
+    __tsan_release(this);
+    unlock(this);
+}
+
+bool absl::Mutex::TryLock() {
+    static auto* const try_lock = original<bool(absl::Mutex*)>("_ZN4absl7debian35Mutex7TryLockEv");
+    const bool locked = try_lock(this);
+    if (locked) __tsan_acquire(this);
+    return locked;
+}

@@ -35,8 +35,11 @@ struct MeshingClient::Impl {
         const auto reader = ((*stub).*method)(call.context(), request);
         EventStream events(handlers);
         Status taken = Done{};
-        v1::ProgressiveEvent event;
-        while (taken && reader->Read(&event)) taken = events.take(std::move(event));
+        while (taken) {
+            v1::ProgressiveEvent event;
+            if (!reader->Read(&event)) break;
+            taken = events.take(std::move(event));
+        }
         if (!taken) call.cancel();
         const grpc::Status status = reader->Finish();
         if (!taken) return taken.error();

@@ -13,7 +13,8 @@ namespace vsplit {
 template <class Work>
 auto with_thread_limit(const ExecutionContext& context, const Work& work) {
     const int cores = tbb::info::default_concurrency();
-    tbb::task_arena arena(context.threads() == 0 ? cores : std::min(cores, static_cast<int>(std::min(context.threads(), 1U << 16U))));
+    tbb::task_arena arena(context.threads() == 0 ? cores
+                                                 : std::min(cores, static_cast<int>(std::min(context.threads(), 1U << 16U))));
     return arena.execute(work);
 }
 

@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 class EdgeIndex {
 public:
     struct Entry {
-        std::uint64_t key = 0;   ///< a << 32 | b, a < b
+        std::uint64_t key = 0;  ///< a << 32 | b, a < b
         HalfEdge half_edge = 0;
 
         [[nodiscard]] std::uint32_t a() const { return static_cast<std::uint32_t>(key >> 32U); }

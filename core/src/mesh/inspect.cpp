@@ -70,7 +70,8 @@ EdgeSurvey survey_edges(const TriangleMesh& mesh, const EdgeIndex& edges) {
     DisjointSets parts(mesh.faces.size());
     edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
         ++survey.edges;
-        for (const auto* other = first + 1; other != last; ++other) parts.join(face_of(first->half_edge), face_of(other->half_edge));
+        for (const auto* other = first + 1; other != last; ++other)
+            parts.join(face_of(first->half_edge), face_of(other->half_edge));
         if (last - first == 1) survey.boundary.add({first->a(), first->b()});
         if (last - first > 2) survey.non_manifold.add({first->a(), first->b()});
         if (last - first == 2 && origin(mesh, first[0].half_edge) == origin(mesh, first[1].half_edge)) {
@@ -141,8 +142,14 @@ std::uint32_t used_vertices(const TriangleMesh& mesh) {
     return static_cast<std::uint32_t>(std::count(used.begin(), used.end(), true));
 }
 
+/// What is no longer there has no place to look at.
+void report_dropped(std::vector<Finding>& findings, Finding::Kind kind, std::uint32_t count, std::string_view what) {
+    if (count > 0) findings.push_back({kind, count, std::to_string(count) + " " + std::string(what), {}});
+}
+
 const Finding* find_kind(const MeshReport& report, Finding::Kind kind) {
-    const auto found = std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& f) { return f.kind == kind; });
+    const auto found =
+        std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& f) { return f.kind == kind; });
     return found == report.findings.end() ? nullptr : &*found;
 }
 
@@ -151,7 +158,8 @@ std::string places(const Finding& finding, bool edges) {
     constexpr std::size_t kShown = 5;
     const std::size_t stride = edges ? 2 : 1;
     std::string text = edges ? "edges " : "vertices ";
-    for (std::size_t i = 0; i < std::min<std::size_t>(kShown, finding.count) && (i + 1) * stride <= finding.elements.size(); ++i) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(kShown, finding.count) && (i + 1) * stride <= finding.elements.size();
+         ++i) {
         if (i > 0) text += ", ";
         text += std::to_string(finding.elements[i * stride]);
         if (edges) text += "-" + std::to_string(finding.elements[i * stride + 1]);
@@ -163,20 +171,27 @@ std::string places(const Finding& finding, bool edges) {
 
 std::string_view finding_name(Finding::Kind kind) {
     switch (kind) {
-        case Finding::Kind::kBoundaryEdge: return "BOUNDARY_EDGE";
-        case Finding::Kind::kNonManifoldEdge: return "NON_MANIFOLD_EDGE";
-        case Finding::Kind::kInconsistentEdge: return "INCONSISTENT_EDGE";
-        case Finding::Kind::kNonManifoldVertex: return "NON_MANIFOLD_VERTEX";
-        case Finding::Kind::kDegenerateFace: return "DEGENERATE_FACE";
-        case Finding::Kind::kDuplicateFace: return "DUPLICATE_FACE";
-        case Finding::Kind::kMergedVertex: return "MERGED_VERTEX";
-        case Finding::Kind::kUnusedVertex: return "UNUSED_VERTEX";
-        case Finding::Kind::kCollapsedFace: return "COLLAPSED_FACE";
+        case Finding::Kind::kBoundaryEdge:
+            return "BOUNDARY_EDGE";
+        case Finding::Kind::kNonManifoldEdge:
+            return "NON_MANIFOLD_EDGE";
+        case Finding::Kind::kInconsistentEdge:
+            return "INCONSISTENT_EDGE";
+        case Finding::Kind::kNonManifoldVertex:
+            return "NON_MANIFOLD_VERTEX";
+        case Finding::Kind::kDegenerateFace:
+            return "DEGENERATE_FACE";
+        case Finding::Kind::kDuplicateFace:
+            return "DUPLICATE_FACE";
+        case Finding::Kind::kUnusedVertex:
+            return "UNUSED_VERTEX";
+        case Finding::Kind::kCollapsedFace:
+            return "COLLAPSED_FACE";
     }
     return "UNKNOWN";
 }
 
-MeshReport inspect(const TriangleMesh& mesh) {
+MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     MeshReport report;
     report.vertices = mesh.vertex_count();
     report.faces = mesh.face_count();
@@ -208,6 +223,10 @@ MeshReport inspect(const TriangleMesh& mesh) {
     vertices.report(report.findings, "non-manifold vertices (more than one fan of faces)", "vertex");
     degenerate.report(report.findings, "degenerate faces (stretch under 1e-9)", "face");
     duplicates.report(report.findings, "faces with the same three vertices as an earlier one", "face");
+    report_dropped(report.findings, Finding::Kind::kUnusedVertex, weld.unused_vertices,
+                   "vertices that no face used were dropped");
+    report_dropped(report.findings, Finding::Kind::kCollapsedFace, weld.collapsed_faces,
+                   "faces with two equal corners after the weld were dropped");
     return report;
 }
 
@@ -215,20 +234,28 @@ Status require_closed_manifold(const MeshReport& report) {
     if (report.faces == 0) return Error{Cause::kEmptyInput, "the mesh has no faces; a closed mesh of at least 4 is needed", ""};
     using Kind = Finding::Kind;
     if (const Finding* f = find_kind(report, Kind::kNonManifoldEdge)) {
-        return Error{Cause::kNonManifold, std::to_string(f->count) + " edges have more than two faces: " + places(*f, true) +
-                     " (vertex indices); every edge must have exactly two", ""};
+        return Error{Cause::kNonManifold,
+                     std::to_string(f->count) + " edges have more than two faces: " + places(*f, true) +
+                         " (vertex indices); every edge must have exactly two",
+                     ""};
     }
     if (const Finding* f = find_kind(report, Kind::kInconsistentEdge)) {
-        return Error{Cause::kNonManifold, std::to_string(f->count) + " edges have two faces that disagree on which side is outside: " +
-                     places(*f, true) + " (vertex indices); faces must be oriented consistently", ""};
+        return Error{Cause::kNonManifold,
+                     std::to_string(f->count) + " edges have two faces that disagree on which side is outside: " +
+                         places(*f, true) + " (vertex indices); faces must be oriented consistently",
+                     ""};
     }
     if (const Finding* f = find_kind(report, Kind::kBoundaryEdge)) {
-        return Error{Cause::kOpenMesh, "the mesh is open: " + std::to_string(f->count) + " edges have one face only: " +
-                     places(*f, true) + " (vertex indices); a closed mesh is needed (a weld tolerance may close small gaps)", ""};
+        return Error{Cause::kOpenMesh,
+                     "the mesh is open: " + std::to_string(f->count) + " edges have one face only: " + places(*f, true) +
+                         " (vertex indices); a closed mesh is needed (a weld tolerance may close small gaps)",
+                     ""};
     }
     if (const Finding* f = find_kind(report, Kind::kNonManifoldVertex)) {
-        return Error{Cause::kNonManifold, std::to_string(f->count) + " vertices join more than one fan of faces: " +
-                     places(*f, false) + "; every vertex must have one", ""};
+        return Error{Cause::kNonManifold,
+                     std::to_string(f->count) + " vertices join more than one fan of faces: " + places(*f, false) +
+                         "; every vertex must have one",
+                     ""};
     }
     return Done{};
 }

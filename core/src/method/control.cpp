@@ -72,7 +72,8 @@ std::vector<std::uint32_t> valences(const TriangleMesh& mesh) {
 std::string reason_for(const Violation& violation, bool coarsest) {
     const std::string what = violation.bound == "max_valence" ? "vertices" : "faces";
     if (coarsest) return "no valid collapse mends the remaining " + what + " within the tolerance and the other bounds";
-    return "the collapses that mend these " + what + " come at fewer faces than were asked for, or none within the tolerance does";
+    return "the collapses that mend these " + what +
+           " come at fewer faces than were asked for, or none within the tolerance does";
 }
 
 }  // namespace
@@ -140,7 +141,8 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     MethodResult result = describe_resolution(std::move(*mrr), *used.faces);
     result.options = used;
     result.violations = find_violations(mesh_at(result.mrr, result.mrr.level_for(result.faces)), used);
-    for (Violation& violation : result.violations) violation.reason = reason_for(violation, result.faces == result.mrr.faces_min());
+    for (Violation& violation : result.violations)
+        violation.reason = reason_for(violation, result.faces == result.mrr.faces_min());
     result.elapsed = std::chrono::steady_clock::now() - start;
     return result;
 }

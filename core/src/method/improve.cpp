@@ -12,10 +12,10 @@
 namespace vsplit {
 namespace {
 
-constexpr double kDefaultSizeShare = 0.01;   // of the diagonal
+constexpr double kDefaultSizeShare = 0.01;  // of the diagonal
 constexpr double kSizeGrowth = 1.25;
 constexpr std::uint64_t kDefaultFaceBudget = 1'000'000;
-constexpr double kMeanEdgeOverSize = 1.5;    // the mean edge of the default resolution
+constexpr double kMeanEdgeOverSize = 1.5;  // the mean edge of the default resolution
 /// Where nothing more can be collapsed within the tolerance shape has suffered; with twice the faces it is near its best.
 constexpr std::uint32_t kFacesOverCoarsest = 2;
 constexpr double kEquilateralArea = 0.4330127018922193;  // of edge 1
@@ -39,12 +39,13 @@ std::uint32_t default_faces(const TriangleMesh& mesh, double subdivision_size) {
 ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits) {
     const double diagonal = bounding_box(mesh).diagonal();
     ImproveOptions used = options;
-    used.subdivision_size = options.subdivision_size ? *options.subdivision_size
-                                                     : default_subdivision_size(mesh, diagonal, limits.max_faces);
+    used.subdivision_size =
+        options.subdivision_size ? *options.subdivision_size : default_subdivision_size(mesh, diagonal, limits.max_faces);
     used.tolerance = options.tolerance.value_or(kDefaultToleranceShare * diagonal);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
-    used.faces = options.faces ? *options.faces : std::max(default_faces(mesh, *used.subdivision_size), options.faces_min.value_or(4));
+    used.faces =
+        options.faces ? *options.faces : std::max(default_faces(mesh, *used.subdivision_size), options.faces_min.value_or(4));
     used.faces_min = options.faces_min.value_or(kLeastFaces);
     used.mode = options.mode.value_or(Mode::kStrict);
     return used;

@@ -52,8 +52,10 @@ Status check_faces(const std::optional<std::uint32_t>& faces, const std::optiona
 template <class Options>
 Status check_common(const Options& options) {
     if (options.max_deviation) {
-        return Error{Cause::kUnsupported, "max_deviation comes with the extended mode, which this version does not offer; leave it out "
-                     "and bound the quadric error with tolerance", "max_deviation"};
+        return Error{Cause::kUnsupported,
+                     "max_deviation comes with the extended mode, which this version does not offer; leave it out "
+                     "and bound the quadric error with tolerance",
+                     "max_deviation"};
     }
     if (options.mode == Mode::kExtended) {
         return Error{Cause::kUnsupported, "mode EXTENDED is not offered by this version; accepted is STRICT", "mode"};
@@ -78,7 +80,8 @@ Status check_options(const ControlOptions& options) {
     if (Status s = check_range(options.min_stretch, kStretch, "min_stretch"); !s) return s;
     if (Status s = check_range(options.max_size, kPositive, "max_size"); !s) return s;
     if (options.max_valence && *options.max_valence < kLeastValenceBound) {
-        return invalid("max_valence", std::to_string(*options.max_valence), "at least 6 (the mean valence of a closed mesh is about 6)");
+        return invalid("max_valence", std::to_string(*options.max_valence),
+                       "at least 6 (the mean valence of a closed mesh is about 6)");
     }
     return check_common(options);
 }

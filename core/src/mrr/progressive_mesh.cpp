@@ -19,14 +19,17 @@ Status check_indices_and_coordinates(const TriangleMesh& mesh) {
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
         for (const std::uint32_t v : mesh.faces[f]) {
             if (v >= mesh.vertex_count()) {
-                return Error{Cause::kIndexOutOfRange, "base mesh: face " + std::to_string(f) + " names vertex " + std::to_string(v) +
-                             " of " + std::to_string(mesh.vertex_count()), ""};
+                return Error{Cause::kIndexOutOfRange,
+                             "base mesh: face " + std::to_string(f) + " names vertex " + std::to_string(v) + " of " +
+                                 std::to_string(mesh.vertex_count()),
+                             ""};
             }
         }
     }
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         if (!is_valid_position(mesh.positions[v])) {
-            return Error{Cause::kInvalidCoordinate, "base mesh: vertex " + std::to_string(v) + " has a coordinate that is not finite or beyond 1e15", ""};
+            return Error{Cause::kInvalidCoordinate,
+                         "base mesh: vertex " + std::to_string(v) + " has a coordinate that is not finite or beyond 1e15", ""};
         }
     }
     return Done{};
@@ -45,7 +48,8 @@ Expected<ProgressiveMesh> ProgressiveMesh::from_base(TriangleMesh base) {
 
 Status ProgressiveMesh::check(const VertexSplit& split) const {
     if (split.anchor >= twin_.size()) {
-        return corrupt(level(), "anchor " + std::to_string(split.anchor) + " is no corner; the mesh has " + std::to_string(twin_.size()));
+        return corrupt(level(),
+                       "anchor " + std::to_string(split.anchor) + " is no corner; the mesh has " + std::to_string(twin_.size()));
     }
     if (!is_valid_position(split.kept) || !is_valid_position(split.added)) {
         return corrupt(level(), "a coordinate is not finite or beyond 1e15");
@@ -55,8 +59,8 @@ Status ProgressiveMesh::check(const VertexSplit& split) const {
     for (std::uint32_t step = 0; step < split.steps; ++step) {
         corner = twin_[prev(corner)];
         if (corner == split.anchor) {
-            return corrupt(level(), std::to_string(split.steps) + " steps around a vertex of valence " + std::to_string(step + 1) +
-                                        "; at most valence - 1 are possible");
+            return corrupt(level(), std::to_string(split.steps) + " steps around a vertex of valence " +
+                                        std::to_string(step + 1) + "; at most valence - 1 are possible");
         }
     }
     return Done{};
@@ -79,10 +83,10 @@ void ProgressiveMesh::apply(const VertexSplit& split) {
     const std::uint32_t w = mesh_.vertex_count();
 
     // The fan that moves: it begins at the edge (v, b) and ends at (v, e).
-    const HalfEdge fan_begin = split.anchor;         // v -> b, soon w -> b
-    const HalfEdge before = twin_[fan_begin];        // b -> v
-    HalfEdge fan_end = kNone;                        // e -> v, soon e -> w
-    HalfEdge after = fan_begin;                      // v -> e, once the fan is walked
+    const HalfEdge fan_begin = split.anchor;   // v -> b, soon w -> b
+    const HalfEdge before = twin_[fan_begin];  // b -> v
+    HalfEdge fan_end = kNone;                  // e -> v, soon e -> w
+    HalfEdge after = fan_begin;                // v -> e, once the fan is walked
     for (std::uint32_t step = 0; step < split.steps; ++step) {
         mesh_.faces[face_of(after)][after % 3] = w;
         fan_end = prev(after);

@@ -20,8 +20,8 @@ inline constexpr std::uint32_t kValenceCeiling = Fan::kCapacity;
 struct Evaluation {
     enum class Verdict {
         kValid,
-        kInvalid,       ///< until the neighbourhood changes
-        kOutOfReach,    ///< no place is within tolerance: until one of the two ends changes
+        kInvalid,     ///< until the neighbourhood changes
+        kOutOfReach,  ///< no place is within tolerance: until one of the two ends changes
     };
     Verdict verdict = Verdict::kInvalid;
     double priority = 0;
@@ -71,8 +71,8 @@ private:
         return true;
     }
 
-    /// Walks the ring of the edge into the fan and sums up the faces before. False when the link condition fails: the ends share a
-    /// neighbour besides the two across the edge, so that the collapse would pinch the surface.
+    /// Walks the ring of the edge into the fan and sums up the faces before. False when the link condition fails: the ends share
+    /// a neighbour besides the two across the edge, so that the collapse would pinch the surface.
     [[nodiscard]] bool gather(HalfEdge h) {
         const HalfEdge g = mesh_.twin(h);
         const std::uint32_t i = mesh_.origin(h);

@@ -11,8 +11,8 @@ namespace vsplit {
 /// Edges by priority, largest first, ties by smaller edge number: a tournament over edge numbers with 32 players a match.
 ///
 /// A collapse changes some forty edges, which are near each other on the surface and so, with a mesh ordered along a curve, in
-/// number: they share a few matches, which are played again when the winner is asked for. A heap would go to forty places all over
-/// memory. Setting is O(1), the winner O(changed matches * log(edges)).
+/// number: they share a few matches, which are played again when the winner is asked for. A heap would go to forty places all
+/// over memory. Setting is O(1), the winner O(changed matches * log(edges)).
 class EdgeQueue {
 public:
     explicit EdgeQueue(std::size_t half_edges);
@@ -40,8 +40,8 @@ private:
 
     /// Players of one level and the matches among them whose result is open.
     struct Level {
-        std::vector<double> best;          // of each player; a multiple of kPlayers, filled up with kAbsent
-        std::vector<std::uint32_t> open;   // matches to play again
+        std::vector<double> best;         // of each player; a multiple of kPlayers, filled up with kAbsent
+        std::vector<std::uint32_t> open;  // matches to play again
         std::vector<bool> is_open;
     };
 
@@ -53,7 +53,7 @@ private:
     }
     void play_open_matches();
 
-    std::vector<Level> levels_;   // 0: edges; the last: one match
+    std::vector<Level> levels_;  // 0: edges; the last: one match
 };
 
 }  // namespace vsplit

@@ -8,7 +8,8 @@
 
 // The loops below have no order-dependent sums and multiply-add never fuses (-ffp-contract=off), so that every clone gives the
 // same bits. Sanitizers run before the loader's choice between clones can be made.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define VSPLIT_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define VSPLIT_VECTOR_CLONES
@@ -66,7 +67,7 @@ struct FanIn {
 struct FanOut {
     double* __restrict stretch;
     double* __restrict size;
-    double* __restrict folded;   // > 0 where the face turned too far
+    double* __restrict folded;  // > 0 where the face turned too far
 };
 
 /// Stretch and size of each face of the fan, and whether it folds over.

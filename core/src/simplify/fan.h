@@ -39,7 +39,7 @@ public:
         double stretch_min = 0;
         double stretch_sum = 0;
         double size_max = 0;
-        bool folds = false;   ///< some face would turn its normal by more than about 78 degrees, or lose its area
+        bool folds = false;  ///< some face would turn its normal by more than about 78 degrees, or lose its area
     };
 
     /// Stretch and size of every face for k at `position`. O(faces).

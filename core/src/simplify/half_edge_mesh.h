@@ -9,12 +9,13 @@
 
 namespace vsplit {
 
-/// The half-edges around an edge (i, j), named as in VertexSplit: the faces (i, j, e) and (j, i, b) vanish when j collapses into i.
+/// The half-edges around an edge (i, j), named as in VertexSplit: the faces (i, j, e) and (j, i, b) vanish when j collapses into
+/// i.
 struct EdgeStar {
-    HalfEdge ij = 0, je = 0, ei = 0;   ///< face (i, j, e)
-    HalfEdge ji = 0, ib = 0, bj = 0;   ///< face (j, i, b)
-    HalfEdge ej = 0, ie = 0;           ///< twins of je and ei
-    HalfEdge bi = 0, jb = 0;           ///< twins of ib and bj
+    HalfEdge ij = 0, je = 0, ei = 0;  ///< face (i, j, e)
+    HalfEdge ji = 0, ib = 0, bj = 0;  ///< face (j, i, b)
+    HalfEdge ej = 0, ie = 0;          ///< twins of je and ei
+    HalfEdge bi = 0, jb = 0;          ///< twins of ib and bj
 };
 
 /// Connectivity of a closed 2-manifold that only ever gets coarser: 24 bytes a face, faces and vertices keep their numbers.
@@ -67,7 +68,7 @@ private:
     /// Side by side, since walks need both: a face's three lie in one or two cache lines.
     struct Link {
         std::uint32_t origin = 0;
-        HalfEdge twin = kNone;   // kNone in removed faces
+        HalfEdge twin = kNone;  // kNone in removed faces
     };
     std::vector<Link> half_edges_;
     std::vector<HalfEdge> outgoing_;

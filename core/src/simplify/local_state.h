@@ -8,7 +8,7 @@ namespace vsplit {
 
 /// Shape of a live face and where it looks; the normal of a sliver may be borrowed. Half a cache line: two are never straddled.
 struct alignas(32) FaceState {
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();   // only to be compared with another: single precision is plenty
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // only to be compared with another: single precision is plenty
     double stretch = 0;
     double size = 0;
 };

@@ -13,7 +13,7 @@ struct Before {
     double faces = 0;
     double stretch_sum = 0;
     double stretch_min = 0;
-    double weight_sum = 0;   ///< of the policy's face_weight
+    double weight_sum = 0;  ///< of the policy's face_weight
 };
 
 /// q(F) of the faces after a collapse, [Date05] Eq. 8: min St * mean St, at most 1.
@@ -50,8 +50,8 @@ struct ControlPolicy {
     double min_stretch = 0;
     double max_size = std::numeric_limits<double>::infinity();
     std::uint32_t max_valence = std::numeric_limits<std::uint32_t>::max();
-    double size_unit = 1;          ///< tau_SZ where there is a bound, else any length: it scales all priorities alike
-    bool only_violators = false;   ///< phase one: only collapses that touch a face under min_stretch
+    double size_unit = 1;         ///< tau_SZ where there is a bound, else any length: it scales all priorities alike
+    bool only_violators = false;  ///< phase one: only collapses that touch a face under min_stretch
 
     [[nodiscard]] static bool two_phases() { return true; }
     void enter_phase(int phase) { only_violators = phase == 1; }

@@ -154,9 +154,9 @@ private:
     HalfEdgeMesh mesh_;
     LocalState state_;
     EdgeQueue queue_;
-    std::vector<std::uint8_t> out_of_reach_;   // of an edge: not queued, nor will it be until one of its ends moves
+    std::vector<std::uint8_t> out_of_reach_;  // of an edge: not queued, nor will it be until one of its ends moves
     CollapseLog log_;
-    std::vector<std::uint32_t> visited_;   // visit_ of the last collapse that had the vertex in its ring
+    std::vector<std::uint32_t> visited_;  // visit_ of the last collapse that had the vertex in its ring
     std::vector<std::uint32_t> ring_;
     std::uint32_t visit_ = 0;
     std::uint32_t faces_start_ = 0;

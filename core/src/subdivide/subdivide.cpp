@@ -53,7 +53,8 @@ void cut_face(const std::array<bool, 3>& marked, Shorter first_diagonal_shorter,
 }
 
 std::array<bool, 3> mark(const Corners& face, double max_edge) {
-    return {longer(face.p[0], face.p[1], max_edge), longer(face.p[1], face.p[2], max_edge), longer(face.p[2], face.p[0], max_edge)};
+    return {longer(face.p[0], face.p[1], max_edge), longer(face.p[1], face.p[2], max_edge),
+            longer(face.p[2], face.p[0], max_edge)};
 }
 
 /// Counts the faces each face ends as. Depth-first with an explicit stack: its depth is the logarithm of the edge over max_edge.
@@ -83,7 +84,8 @@ private:
             ++pieces_;
             return;
         }
-        const std::array<Vec3, 6> points{f.p[0], f.p[1], f.p[2], midpoint(f.p[0], f.p[1]), midpoint(f.p[1], f.p[2]), midpoint(f.p[2], f.p[0])};
+        const std::array<Vec3, 6> points{
+            f.p[0], f.p[1], f.p[2], midpoint(f.p[0], f.p[1]), midpoint(f.p[1], f.p[2]), midpoint(f.p[2], f.p[0])};
         const auto shorter = [&](int a, int b, int c, int d) {
             return (points[a] - points[c]).squaredNorm() <= (points[b] - points[d]).squaredNorm();
         };
@@ -119,7 +121,8 @@ SubdividedMesh cut_marked(const SubdividedMesh& from, TriangleMesh&& with_midpoi
     return to;
 }
 
-/// Puts midpoints on the edges `wanted(a, b)` says, in order of the edges' vertices, and cuts the faces. False when there is none.
+/// Puts midpoints on the edges `wanted(a, b)` says, in order of the edges' vertices, and cuts the faces. False when there is
+/// none.
 template <class Wanted>
 bool subdivide_round(SubdividedMesh& current, Wanted wanted) {
     std::vector<std::uint32_t> midpoints(current.mesh.faces.size() * 3, kNone);
@@ -184,23 +187,27 @@ std::uint64_t predict_subdivision(const TriangleMesh& mesh, double max_edge, std
 Expected<SubdividedMesh> subdivide_to_size(const TriangleMesh& mesh, double max_edge, std::uint32_t face_limit,
                                            const ExecutionContext& context) {
     if (!(max_edge > 0) || !std::isfinite(max_edge)) {
-        return Error{Cause::kInvalidOption, "the subdivision size is " + number(max_edge) + "; a positive length is needed", "subdivision_size"};
+        return Error{Cause::kInvalidOption, "the subdivision size is " + number(max_edge) + "; a positive length is needed",
+                     "subdivision_size"};
     }
     if (mesh.face_count() > face_limit) {
-        return Error{Cause::kLimitExceeded, "the mesh has " + std::to_string(mesh.face_count()) + " faces; the limit is " +
-                     std::to_string(face_limit), "subdivision_size"};
+        return Error{Cause::kLimitExceeded,
+                     "the mesh has " + std::to_string(mesh.face_count()) + " faces; the limit is " + std::to_string(face_limit),
+                     "subdivision_size"};
     }
     const std::uint64_t predicted = predict_subdivision(mesh, max_edge, face_limit);
     if (predicted > face_limit) {
-        return Error{Cause::kLimitExceeded, "subdividing to edges of " + number(max_edge) + " makes more than " +
-                     std::to_string(face_limit) + " faces, the limit; a subdivision size of " +
-                     number(fitting_max_edge(mesh, face_limit)) + " fits", "subdivision_size"};
+        return Error{Cause::kLimitExceeded,
+                     "subdividing to edges of " + number(max_edge) + " makes more than " + std::to_string(face_limit) +
+                         " faces, the limit; a subdivision size of " + number(fitting_max_edge(mesh, face_limit)) + " fits",
+                     "subdivision_size"};
     }
     SubdividedMesh current = unchanged(mesh);
     const auto wanted = [&](const Vec3& a, const Vec3& b) { return longer(a, b, max_edge); };
     do {
         if (context.cancelled()) return ExecutionContext::cancelled_error();
-        context.report({"subdivide", static_cast<double>(current.mesh.face_count()) / static_cast<double>(predicted), current.mesh.face_count()});
+        context.report({"subdivide", static_cast<double>(current.mesh.face_count()) / static_cast<double>(predicted),
+                        current.mesh.face_count()});
     } while (subdivide_round(current, wanted));
     return current;
 }
@@ -208,13 +215,18 @@ Expected<SubdividedMesh> subdivide_to_size(const TriangleMesh& mesh, double max_
 Expected<SubdividedMesh> subdivide_one_to_four(const TriangleMesh& mesh, std::uint32_t times, std::uint32_t face_limit,
                                                const ExecutionContext& context) {
     if (times > kMaxTimes) {
-        return Error{Cause::kInvalidOption, std::to_string(times) + " subdivisions; 0 to " + std::to_string(kMaxTimes) + " are possible", "subdivisions"};
+        return Error{Cause::kInvalidOption,
+                     std::to_string(times) + " subdivisions; 0 to " + std::to_string(kMaxTimes) + " are possible",
+                     "subdivisions"};
     }
     std::uint32_t fitting = 0;
     while (fitting < times && (std::uint64_t{mesh.face_count()} << (2 * (fitting + 1))) <= face_limit) ++fitting;
     if (fitting < times || mesh.face_count() > face_limit) {
-        return Error{Cause::kLimitExceeded, std::to_string(times) + " one-to-four subdivisions of " + std::to_string(mesh.face_count()) +
-                     " faces make more than " + std::to_string(face_limit) + ", the limit; " + std::to_string(fitting) + " fit", "subdivisions"};
+        return Error{Cause::kLimitExceeded,
+                     std::to_string(times) + " one-to-four subdivisions of " + std::to_string(mesh.face_count()) +
+                         " faces make more than " + std::to_string(face_limit) + ", the limit; " + std::to_string(fitting) +
+                         " fit",
+                     "subdivisions"};
     }
     SubdividedMesh current = unchanged(mesh);
     for (std::uint32_t round = 0; round < times; ++round) {

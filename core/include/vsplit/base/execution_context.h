@@ -11,9 +11,9 @@ namespace vsplit {
 
 /// How far a verb has come. `fraction` never decreases within a stage; the stages of a verb are named where it is declared.
 struct Progress {
-    std::string_view stage;     ///< e.g. "subdivide", "evaluate", "simplify"
-    double fraction = 0;        ///< 0..1 of this stage
-    std::uint32_t faces = 0;    ///< faces of the mesh at this moment
+    std::string_view stage;   ///< e.g. "subdivide", "evaluate", "simplify"
+    double fraction = 0;      ///< 0..1 of this stage
+    std::uint32_t faces = 0;  ///< faces of the mesh at this moment
 };
 
 /// What a long verb runs in: who hears of its progress, who may stop it, how many threads it may take.
@@ -41,7 +41,9 @@ public:
     }
 
     /// The error every verb returns when it finds itself cancelled.
-    [[nodiscard]] static Error cancelled_error() { return {Cause::kCancelled, "cancelled by the caller; nothing was changed", ""}; }
+    [[nodiscard]] static Error cancelled_error() {
+        return {Cause::kCancelled, "cancelled by the caller; nothing was changed", ""};
+    }
 
 private:
     ProgressHandler on_progress_;

@@ -10,8 +10,8 @@ namespace vsplit {
 /// the neighbour across its longest edge instead (or of another neighbour, where that one is a sliver too), so that CAD slivers
 /// neither raise false creases nor give false planes to the quadrics.
 struct FaceNormals {
-    std::vector<Vec3> normals;            ///< one a face; zero only where a whole component has no area
-    std::vector<bool> reliable;           ///< false where the normal was borrowed
+    std::vector<Vec3> normals;   ///< one a face; zero only where a whole component has no area
+    std::vector<bool> reliable;  ///< false where the normal was borrowed
 };
 
 /// \pre `mesh` is manifold and closed. O(faces).

@@ -12,12 +12,12 @@ namespace vsplit {
 struct SharpEdge {
     std::uint32_t a = 0;
     std::uint32_t b = 0;
-    double weight = 0;   ///< w_e of [Date05] Eq. 2
+    double weight = 0;  ///< w_e of [Date05] Eq. 2
 };
 
 struct SharpEdgeOptions {
-    double angle = 40;    ///< degrees, 0..180: an edge is sharp when its two faces' normals differ by more than this
-    double weight = 10;   ///< weight of an edge whose faces meet at a right angle; others weigh weight * (1 - cos of the angle)
+    double angle = 40;   ///< degrees, 0..180: an edge is sharp when its two faces' normals differ by more than this
+    double weight = 10;  ///< weight of an edge whose faces meet at a right angle; others weigh weight * (1 - cos of the angle)
 };
 
 /// Sharp edges by dihedral angle ([Date05] 3.1), in order of their first half-edge. O(faces).

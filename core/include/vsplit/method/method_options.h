@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <variant>
 
 #include "vsplit/base/expected.h"
 
@@ -12,21 +13,23 @@ enum class Mode { kStrict, kExtended };
 
 /// Default of `tolerance`, as a share of the bounding box's diagonal.
 inline constexpr double kDefaultToleranceShare = 1e-3;
-inline constexpr double kDefaultFeatureAngle = 40;    ///< degrees
+inline constexpr double kDefaultFeatureAngle = 40;  ///< degrees
 inline constexpr double kDefaultFeatureWeight = 10;
-inline constexpr std::uint32_t kLeastFaces = 4;       ///< a tetrahedron: no closed mesh has fewer
+inline constexpr std::uint32_t kLeastFaces = 4;  ///< a tetrahedron: no closed mesh has fewer
 
 /// What `improve` may be asked for. Everything is optional; `default_options` says what is taken instead.
 /// All lengths are in model units.
 struct ImproveOptions {
-    std::optional<double> subdivision_size{};   ///< sigma_SZ: no edge longer after subdivision; > 0. Default: see docs/method.md
-    std::optional<double> tolerance{};          ///< > 0; sqrt of the paper's tau_TL (tau_TL = 2 is tolerance 1.414). Default 0.1 % of the diagonal
-    std::optional<double> max_deviation{};      ///< guaranteed two-sided distance; comes with the extended mode (UNSUPPORTED now)
-    std::optional<double> feature_angle{};      ///< degrees, 0..180; default 40
-    std::optional<double> feature_weight{};     ///< w_e at a right angle; >= 0; default 10
-    std::optional<std::uint32_t> faces{};       ///< resolution of the result; default: mean edge 1.5 subdivision_size, but at least twice the coarsest
-    std::optional<std::uint32_t> faces_min{};   ///< simplify down to this many faces, or until no edge is valid; default 4
-    std::optional<Mode> mode{};                 ///< default STRICT
+    std::optional<double> subdivision_size{};  ///< sigma_SZ: no edge longer after subdivision; > 0. Default: see docs/method.md
+    std::optional<double>
+        tolerance{};  ///< > 0; sqrt of the paper's tau_TL (tau_TL = 2 is tolerance 1.414). Default 0.1 % of the diagonal
+    std::optional<double> max_deviation{};   ///< guaranteed two-sided distance; comes with the extended mode (UNSUPPORTED now)
+    std::optional<double> feature_angle{};   ///< degrees, 0..180; default 40
+    std::optional<double> feature_weight{};  ///< w_e at a right angle; >= 0; default 10
+    std::optional<std::uint32_t>
+        faces{};  ///< resolution of the result; default: mean edge 1.5 subdivision_size, but at least twice the coarsest
+    std::optional<std::uint32_t> faces_min{};  ///< simplify down to this many faces, or until no edge is valid; default 4
+    std::optional<Mode> mode{};                ///< default STRICT
 };
 
 /// What `control` may be asked for. Lengths in model units.
@@ -44,12 +47,16 @@ struct ControlOptions {
     std::optional<Mode> mode{};                   ///< default STRICT
 };
 
+/// What either method is asked for; which one says which method it is.
+using MethodOptions = std::variant<ImproveOptions, ControlOptions>;
+
 /// Limits the host sets, not the user of a method.
 struct MethodLimits {
-    std::uint32_t max_faces = 20'000'000;   ///< after subdivision
+    std::uint32_t max_faces = 20'000'000;  ///< after subdivision
 };
 
-/// Ranges and contradictions. \return INVALID_OPTION or UNSUPPORTED naming the field, what it was and what would be accepted. O(1).
+/// Ranges and contradictions. \return INVALID_OPTION or UNSUPPORTED naming the field, what it was and what would be accepted.
+/// O(1).
 [[nodiscard]] Status check_options(const ImproveOptions& options);
 [[nodiscard]] Status check_options(const ControlOptions& options);
 

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "vsplit/method/method_options.h"
@@ -16,22 +15,22 @@ namespace vsplit {
 struct Violation {
     static constexpr std::size_t kExamples = 16;
 
-    std::string bound;                       ///< the option: "min_stretch", "max_size", "max_valence"
-    double limit = 0;                        ///< what was asked
-    double worst = 0;                        ///< what the worst face or vertex has
-    std::uint32_t count = 0;                 ///< faces (vertices for max_valence) that break it
-    std::vector<std::uint32_t> elements;     ///< the first kExamples of them
-    std::string reason;                      ///< one sentence: why it could not be mended
+    std::string bound;                    ///< the option: "min_stretch", "max_size", "max_valence"
+    double limit = 0;                     ///< what was asked
+    double worst = 0;                     ///< what the worst face or vertex has
+    std::uint32_t count = 0;              ///< faces (vertices for max_valence) that break it
+    std::vector<std::uint32_t> elements;  ///< the first kExamples of them
+    std::string reason;                   ///< one sentence: why it could not be mended
 };
 
 /// What both methods return: the MRR and the figures of the resolution that was asked for.
 struct MethodResult {
     MultiresMesh mrr;
-    std::variant<ImproveOptions, ControlOptions> options;  ///< as used, defaults filled in; also says which method it was
-    std::uint32_t faces = 0;                 ///< resolution shown: the nearest to the one asked for that exists
-    std::uint32_t faces_subdivided = 0;      ///< faces before simplification; equals mrr.faces_max()
-    Quality quality;                         ///< at `faces`
-    std::vector<Violation> violations;       ///< at `faces`; empty when all bounds hold
+    MethodOptions options;               ///< as used, defaults filled in
+    std::uint32_t faces = 0;             ///< resolution shown: the nearest to the one asked for that exists
+    std::uint32_t faces_subdivided = 0;  ///< faces before simplification; equals mrr.faces_max()
+    Quality quality;                     ///< at `faces`
+    std::vector<Violation> violations;   ///< at `faces`; empty when all bounds hold
     std::chrono::duration<double> elapsed{};
 
     [[nodiscard]] bool bounds_satisfied() const { return violations.empty(); }

@@ -16,7 +16,7 @@ namespace vsplit {
 /// which the fan that moves begins and e the one at which it ends. Afterwards v lies at `kept` and w at `added`.
 struct VertexSplit {
     std::uint32_t anchor = 0;
-    std::uint32_t steps = 0;   ///< 1 .. valence(v) - 1
+    std::uint32_t steps = 0;  ///< 1 .. valence(v) - 1
     Vec3 kept = Vec3::Zero();
     Vec3 added = Vec3::Zero();
 

@@ -47,8 +47,8 @@ private:
     void undo_last();
 
     TriangleMesh mesh_;
-    std::vector<std::uint32_t> twin_;   // of half-edge 3f + c, which leaves corner c of face f along it
-    std::vector<Vec3> undo_;            // where the vertex of each applied split lay before
+    std::vector<std::uint32_t> twin_;  // of half-edge 3f + c, which leaves corner c of face f along it
+    std::vector<Vec3> undo_;           // where the vertex of each applied split lay before
 };
 
 /// The mesh of `mrr` at a level (clamped to the last). O(level). \pre `mrr` was made by this library (asserts otherwise).

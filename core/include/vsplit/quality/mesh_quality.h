@@ -22,12 +22,12 @@ struct Quality {
     std::uint32_t faces = 0;
     double stretch_min = 0;
     double stretch_mean = 0;
-    double stretch_p01 = 0;                              ///< 1st percentile: the stretch of the face at rank floor(faces / 100)
-    std::uint32_t faces_below_02 = 0;                    ///< faces with stretch < 0.2
-    double size_max = 0;                                 ///< longest edge, model units
-    std::uint32_t valence_max = 0;                       ///< most edges at one vertex
-    std::array<std::uint32_t, 20> stretch_histogram{};   ///< faces with stretch in [i/20, (i+1)/20); 1 counts in the last
-    std::optional<double> deviation_max;                 ///< measured two-sided distance to the source; empty when not measured
+    double stretch_p01 = 0;                             ///< 1st percentile: the stretch of the face at rank floor(faces / 100)
+    std::uint32_t faces_below_02 = 0;                   ///< faces with stretch < 0.2
+    double size_max = 0;                                ///< longest edge, model units
+    std::uint32_t valence_max = 0;                      ///< most edges at one vertex
+    std::array<std::uint32_t, 20> stretch_histogram{};  ///< faces with stretch in [i/20, (i+1)/20); 1 counts in the last
+    std::optional<double> deviation_max;                ///< measured two-sided distance to the source; empty when not measured
 };
 
 /// O(faces log faces) time; an empty mesh has all figures 0.
