@@ -20,8 +20,7 @@ SessionSnapshot session_with(int representations) {
     result.mrr.splits.resize(10);
     result.faces = 14;
     for (int i = 1; i <= representations; ++i) {
-        session.representations.push_back(
-            std::make_shared<const Representation>('r' + std::to_string(i), MeshRef{}, result));
+        session.representations.push_back(std::make_shared<const Representation>('r' + std::to_string(i), MeshRef{}, result));
     }
     return session;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/half_edges.h"
+#include "quality/quality_of_edges.h"
 #include "vsplit/quality/stretch.h"
 
 namespace vsplit {
@@ -196,9 +197,8 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     report.vertices = mesh.vertex_count();
     report.faces = mesh.face_count();
     report.box = bounding_box(mesh);
-    report.quality = measure_quality(mesh);
-
     const EdgeIndex index(mesh);
+    report.quality = measure_quality(mesh, index);
     EdgeSurvey edges = survey_edges(mesh, index);
     FindingCounter vertices = survey_vertices(mesh, index);
     FindingCounter degenerate = survey_degenerate(mesh);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/half_edges.h"
+#include "quality/quality_of_edges.h"
 #include "vsplit/quality/stretch.h"
 
 namespace vsplit {
@@ -14,9 +15,9 @@ std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::uint32_t face) {
 }
 
 /// Counts undirected edges, which at a boundary are more than faces.
-std::uint32_t largest_valence(const TriangleMesh& mesh) {
+std::uint32_t largest_valence(const TriangleMesh& mesh, const EdgeIndex& edges) {
     std::vector<std::uint32_t> valence(mesh.positions.size(), 0);
-    EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* /*last*/) {
+    edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* /*last*/) {
         ++valence[first->a()];
         ++valence[first->b()];
     });
@@ -25,7 +26,9 @@ std::uint32_t largest_valence(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Quality measure_quality(const TriangleMesh& mesh) {
+Quality measure_quality(const TriangleMesh& mesh) { return measure_quality(mesh, EdgeIndex(mesh)); }
+
+Quality measure_quality(const TriangleMesh& mesh, const EdgeIndex& edges) {
     Quality quality;
     quality.faces = mesh.face_count();
     if (mesh.faces.empty()) return quality;
@@ -45,7 +48,7 @@ Quality measure_quality(const TriangleMesh& mesh) {
     std::nth_element(stretches.begin(), p01, stretches.end());
     quality.stretch_p01 = *p01;
     quality.stretch_min = *std::min_element(stretches.begin(), p01 + 1);
-    quality.valence_max = largest_valence(mesh);
+    quality.valence_max = largest_valence(mesh, edges);
     return quality;
 }
 

@@ -75,38 +75,39 @@ private:
     /// a neighbour besides the two across the edge, so that the collapse would pinch the surface.
     [[nodiscard]] bool gather(HalfEdge h) {
         const HalfEdge g = mesh_.twin(h);
-        const std::uint32_t i = mesh_.origin(h);
-        const std::uint32_t j = mesh_.origin(g);
-        if (mesh_.valence(i) == 3 && mesh_.valence(j) == 3) return false;  // a tetrahedron
-        fan_.clear();
-        before_ = {0, 0, std::numeric_limits<double>::infinity(), 0};
-        count_before(state_.faces[face_of(h)]);
-        count_before(state_.faces[face_of(g)]);
-        const std::size_t at_i = gather_half(mesh_.turn(h), g);
-        const std::size_t at_j = gather_half(mesh_.turn(g), h) - at_i;
+        if (mesh_.valence(mesh_.origin(h)) == 3 && mesh_.valence(mesh_.origin(g)) == 3) return false;  // a tetrahedron
+        Before before{0, 0, std::numeric_limits<double>::infinity(), 0};
+        count(state_.faces[face_of(h)], before);
+        count(state_.faces[face_of(g)], before);
+        const std::size_t at_i = gather_half(mesh_.turn(h), g, 0, before);
+        const std::size_t all = gather_half(mesh_.turn(g), h, at_i, before);
+        before_ = before;
         // Each half begins with a vertex across the edge, which both ends share; the others must differ.
-        if (share_vertex(1, at_i, at_i + 1, at_i + at_j)) return false;
-        fan_.close();
+        if (share_vertex(1, at_i, at_i + 1, all)) return false;
+        fan_.close(all);
         return true;
     }
 
-    /// Adds the faces counter-clockwise from that of `first` to the one before the face of `edge`. Faces in the fan so far.
-    std::size_t gather_half(HalfEdge first, HalfEdge edge) {
+    /// Puts the faces counter-clockwise from that of `first` to the one before the face of `edge` into the fan, from place t on.
+    /// The next free place. Counts in locals: members would go through memory at every step.
+    std::size_t gather_half(HalfEdge first, HalfEdge edge, std::size_t t, Before& before) {
         const std::uint32_t last_face = face_of(edge);
-        for (HalfEdge corner = first; face_of(corner) != last_face; corner = mesh_.turn(corner)) {
+        Before sums = before;
+        for (HalfEdge corner = first; face_of(corner) != last_face; corner = mesh_.turn(corner), ++t) {
             const std::uint32_t v = mesh_.target(corner);
             const FaceState& face = state_.faces[face_of(corner)];
-            fan_.add(v, mesh_.position(v), face_of(corner), face.normal);
-            count_before(face);
+            fan_.put(t, v, mesh_.position(v), face_of(corner), face.normal);
+            count(face, sums);
         }
-        return fan_.size();
+        before = sums;
+        return t;
     }
 
-    void count_before(const FaceState& face) {
-        before_.faces += 1;
-        before_.stretch_sum += face.stretch;
-        before_.stretch_min = std::min(before_.stretch_min, face.stretch);
-        before_.weight_sum += policy_.face_weight(face.size);
+    void count(const FaceState& face, Before& sums) const {
+        sums.faces += 1;
+        sums.stretch_sum += face.stretch;
+        sums.stretch_min = std::min(sums.stretch_min, face.stretch);
+        sums.weight_sum += policy_.face_weight(face.size);
     }
 
     /// Whether a vertex of [first, last) of the fan's ring stands in [other_first, other_last) too.

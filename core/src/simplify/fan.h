@@ -15,24 +15,21 @@ public:
     /// Faces that fit.
     static constexpr std::size_t kCapacity = 64;
 
-    void clear() { size_ = 0; }
-
-    /// Adds ring vertex `v` at `position` and the face from it to the next one, which looked along `normal` before.
-    /// \pre size() < kCapacity.
-    void add(std::uint32_t v, const Vec3& position, std::uint32_t face, const Eigen::Vector3f& normal) {
-        vertex_[size_] = v;
-        face_[size_] = face;
-        x_[size_] = position.x();
-        y_[size_] = position.y();
-        z_[size_] = position.z();
-        old_nx_[size_] = normal.x();
-        old_ny_[size_] = normal.y();
-        old_nz_[size_] = normal.z();
-        ++size_;
+    /// Sets ring vertex t: `v` at `position`, and the face from it to the next one, which looked along `normal` before.
+    /// \pre t < kCapacity.
+    void put(std::size_t t, std::uint32_t v, const Vec3& position, std::uint32_t face, const Eigen::Vector3f& normal) {
+        vertex_[t] = v;
+        face_[t] = face;
+        x_[t] = position.x();
+        y_[t] = position.y();
+        z_[t] = position.z();
+        old_nx_[t] = normal.x();
+        old_ny_[t] = normal.y();
+        old_nz_[t] = normal.z();
     }
 
-    /// Closes the ring: call once after the last add. O(faces).
-    void close();
+    /// Closes the ring of the vertices put so far, `faces` of them. O(faces).
+    void close(std::size_t faces);
 
     /// What the fan would be with k at a place.
     struct Shape {
@@ -57,8 +54,8 @@ public:
     [[nodiscard]] Vec3 centroid() const;
 
 private:
-    // One more than faces: the first ring vertex again at the end. A multiple of the vector length.
-    using Column = std::array<double, kCapacity + 4>;
+    // One more than faces, the first ring vertex again at the end, rounded up to whole blocks of vectors and one beyond.
+    using Column = std::array<double, kCapacity + 8>;
 
     std::size_t size_ = 0;
     std::array<std::uint32_t, kCapacity> vertex_{}, face_{};

@@ -29,16 +29,4 @@ Quadric Quadric::line(const Vec3& direction, const Vec3& point, double weight) {
             weight * (point.squaredNorm() - along * along)};
 }
 
-Quadric& Quadric::operator+=(const Quadric& other) {
-    xx += other.xx;
-    xy += other.xy;
-    xz += other.xz;
-    yy += other.yy;
-    yz += other.yz;
-    zz += other.zz;
-    b += other.b;
-    c += other.c;
-    return *this;
-}
-
 }  // namespace vsplit

@@ -17,6 +17,12 @@ namespace {
 
 constexpr std::uint32_t kReportEvery = 1024;  // collapses; some 40 evaluations each
 
+/// Asks for a quadric, which lies in two cache lines, some hundred nanoseconds before it is needed.
+void prefetch(const Quadric& quadric) {
+    __builtin_prefetch(&quadric);
+    __builtin_prefetch(&quadric.c);
+}
+
 template <class Policy>
 class Simplifier {
 public:
@@ -131,6 +137,7 @@ private:
     /// Every edge with an end in the ring of k has new faces around it, or a neighbour that moved: its priority is open again.
     void requeue_around(std::uint32_t k) {
         ++visit_;
+        open_.clear();
         for (const std::uint32_t v : ring_) visited_[v] = visit_;
         for (const std::uint32_t v : ring_) {
             mesh_.for_each_outgoing(v, [&](HalfEdge h) {
@@ -138,9 +145,12 @@ private:
                 if (visited_[other] == visit_ && other < v) return;  // both ends in the ring: once is enough
                 const HalfEdge edge = mesh_.edge_of(h);
                 // Neither quadric changed unless an end is k: no place came within reach.
-                if (out_of_reach_[edge] == 0 || other == k) settle(edge);
+                if (out_of_reach_[edge] != 0 && other != k) return;
+                prefetch(state_.quadrics[other]);
+                open_.push_back(edge);
             });
         }
+        for (const HalfEdge edge : open_) settle(edge);
     }
 
     void report_simplified() const {
@@ -158,6 +168,7 @@ private:
     CollapseLog log_;
     std::vector<std::uint32_t> visited_;  // visit_ of the last collapse that had the vertex in its ring
     std::vector<std::uint32_t> ring_;
+    std::vector<HalfEdge> open_;  // edges to evaluate again
     std::uint32_t visit_ = 0;
     std::uint32_t faces_start_ = 0;
     EdgeEvaluator<Policy> evaluator_;

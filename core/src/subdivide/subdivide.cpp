@@ -67,7 +67,7 @@ public:
     [[nodiscard]] std::uint64_t pieces() const { return pieces_; }
 
     void add(const Corners& face) {
-        open_.push_back(face);
+        cut(face);
         while (!open_.empty() && pieces_ + open_.size() <= limit_) {
             const Corners f = open_.back();
             open_.pop_back();
@@ -203,6 +203,7 @@ Expected<SubdividedMesh> subdivide_to_size(const TriangleMesh& mesh, double max_
                      "subdivision_size"};
     }
     SubdividedMesh current = unchanged(mesh);
+    if (predicted == mesh.face_count()) return current;
     const auto wanted = [&](const Vec3& a, const Vec3& b) { return longer(a, b, max_edge); };
     do {
         if (context.cancelled()) return ExecutionContext::cancelled_error();

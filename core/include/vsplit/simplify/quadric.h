@@ -34,7 +34,17 @@ struct Quadric {
                 xz * x.x() + yz * x.y() + zz * x.z() + b.z()};
     }
 
-    Quadric& operator+=(const Quadric& other);
+    Quadric& operator+=(const Quadric& other) {
+        xx += other.xx;
+        xy += other.xy;
+        xz += other.xz;
+        yy += other.yy;
+        yz += other.yz;
+        zz += other.zz;
+        b += other.b;
+        c += other.c;
+        return *this;
+    }
     friend Quadric operator+(Quadric left, const Quadric& right) { return left += right; }
 };
 
