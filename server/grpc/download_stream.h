@@ -16,7 +16,7 @@ namespace vsplit::rpc {
 /// DownloadMesh: an errand writes the file, unnamed and on disk, so that a slow reader costs one chunk of memory and not a file.
 class DownloadSource final : public MessageSource<v1::MeshChunk> {
 public:
-    static constexpr std::size_t kChunkBytes = 256 * 1024;
+    static constexpr std::size_t kChunkBytes = std::size_t{256} * 1024;
 
     /// \return NOT_FOUND, NOT_READY, INVALID_OPTION, UNAVAILABLE.
     [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,

@@ -62,7 +62,7 @@ void UploadStream::read_on() {
 }
 
 Status UploadStream::take_part() {
-    const Status ready = upload_ ? check_repeated() : begin();
+    Status ready = upload_ ? check_repeated() : begin();
     if (!ready) return ready;
     return upload_->append(part_.offset(), std::as_bytes(std::span(part_.data())));
 }

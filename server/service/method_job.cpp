@@ -9,11 +9,11 @@
 
 namespace vsplit::service {
 
-MethodJob::MethodJob(std::shared_ptr<Session> session, PickedMesh source, MethodOptions options, const ServiceOptions& service,
-                     JobEvents events)
+MethodJob::MethodJob(std::shared_ptr<Session> session, PickedMesh source, const MethodOptions& options,
+                     const ServiceOptions& service, JobEvents events)
     : session_(std::move(session)),
       source_(std::move(source)),
-      options_(std::move(options)),
+      options_(options),
       limits_{service.limits.faces_subdivided},
       events_(std::move(events)),
       context_([this](const Progress& progress) { tell(progress); }, service.threads) {}

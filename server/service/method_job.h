@@ -23,7 +23,7 @@ struct JobEvents {
 /// One Improve or Control in its session's queue.
 class MethodJob final : public Job {
 public:
-    MethodJob(std::shared_ptr<Session> session, PickedMesh source, MethodOptions options, const ServiceOptions& service,
+    MethodJob(std::shared_ptr<Session> session, PickedMesh source, const MethodOptions& options, const ServiceOptions& service,
               JobEvents events);
 
     [[nodiscard]] Report run() override;

@@ -331,8 +331,10 @@ TEST_F(MeshingClientTest, ServesSeveralThreadsAtOnce) {
         return grpc::Status::OK;
     };
     MeshingClient client = connected();
+    constexpr int kThreads = 8;
     std::vector<std::jthread> threads;
-    for (int t = 0; t < 8; ++t) {
+    threads.reserve(kThreads);
+    for (int t = 0; t < kThreads; ++t) {
         threads.emplace_back([&client, t] {
             for (int i = 0; i < 20; ++i) {
                 const std::string id = std::to_string(t) + "-" + std::to_string(i);

@@ -18,8 +18,12 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-// Generous: the machine may be busy with other things, and a sanitizer slows everything down. The work itself takes longer.
+// Generous: the machine may be busy with other things. The work itself takes longer.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr seconds kSoon{40};
+#else
 constexpr seconds kSoon{5};
+#endif
 
 class CancellationTest : public ::testing::Test {
 protected:

@@ -62,7 +62,7 @@ TEST_F(MethodRpcsTest, ImproveIsTheEnginesOwn) {
     const Received received = improve(server_.stub(), request);
     ASSERT_TRUE(received.status.ok());
     const ImproveOptions options = *wire::from_proto(request.options());
-    const Expected<MethodResult> own = vsplit::improve(mesh_, options, {}, ExecutionContext());
+    const Expected<MethodResult> own = vsplit::improve(mesh_, options, {}, ExecutionContext(nullptr, 1));
     ASSERT_TRUE(own) << own.error().message;
     v1::Representation expected = wire::describe("r1", "", mesh_.face_count(), *own);
     *expected.mutable_elapsed() = received.representation->elapsed();  // the one thing that differs

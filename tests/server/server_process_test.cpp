@@ -213,6 +213,8 @@ TEST_F(ServerProcessTest, AMethodThatRunsDelaysTheEndByTheGraceAtMost) {
     EXPECT_FALSE(running.finish().ok());
 }
 
+// A sanitizer keeps books about memory that take more than the memory itself.
+#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 TEST_F(ServerProcessTest, AStalledReaderCostsLittleMemory) {
     start();
     const TriangleMesh mesh = torus(600, 500);  // 600,000 faces: 30 MB as text
@@ -242,11 +244,13 @@ TEST_F(ServerProcessTest, AStalledReaderCostsLittleMemory) {
         read_first(*readers.back());
     }
     const std::size_t after = std::max(wait_until_settled(), before);
+    RecordProperty("bytes_a_reader", std::to_string((after - before) / kReaders));
     EXPECT_LT(after - before, kReaders * (std::size_t{8} << 20)) << (after - before) / kReaders << " bytes a reader";
     EXPECT_TRUE(get_session(*stub_, id).status.ok()) << "others are served";
     for (const auto& context : contexts) context->TryCancel();
     for (const auto& reader : readers) static_cast<void>(reader->Finish());
 }
+#endif
 
 }  // namespace
 }  // namespace vsplit::test

@@ -109,8 +109,8 @@ TEST(GetSessionTest, ShowsTheMeshAndItsRepresentations) {
 
 TEST(ListSessionsTest, PagesInOrderOfCreation) {
     TestServer server;
-    std::vector<std::string> created;
-    for (int i = 0; i < 5; ++i) created.push_back(create_session(server.stub()).message.id());
+    std::vector<std::string> created(5);
+    for (std::string& id : created) id = create_session(server.stub()).message.id();
     std::vector<std::string> listed;
     std::string token;
     do {

@@ -1,6 +1,6 @@
 #include "simplify/collapse_log.h"
 
-#include <utility>
+#include <algorithm>
 
 namespace vsplit {
 namespace {
@@ -19,7 +19,6 @@ public:
         const HalfEdge zero = first_[face_of(h)];
         return zero - zero % 3 + (zero + h) % 3;
     }
-    [[nodiscard]] bool known(HalfEdge h) const { return first_[face_of(h)] != kNone; }
 
 private:
     std::vector<HalfEdge> first_;
@@ -48,12 +47,13 @@ MultiresMesh CollapseLog::build(const HalfEdgeMesh& mesh) {
         mrr.base.faces.push_back({vertex[mesh.origin(h)], vertex[mesh.origin(h + 1)], vertex[mesh.origin(h + 2)]});
     }
     mrr.splits.reserve(entries_.size());
-    for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
+    std::reverse(entries_.begin(), entries_.end());
+    for (const Entry& entry : entries_) {
         const std::uint32_t first_face = mrr.faces_at(mrr.splits.size());
         // The anchor's face was alive when the collapse was made, so it is numbered by now.
-        mrr.splits.push_back({renumbered[entry->anchor], entry->steps, entry->kept_at, entry->removed_at});
-        renumbered.set_face(entry->ij, first_face);
-        renumbered.set_face(entry->ji, first_face + 1);
+        mrr.splits.push_back({renumbered[entry.anchor], entry.steps, entry.kept_at, entry.removed_at});
+        renumbered.set_face(entry.ij, first_face);
+        renumbered.set_face(entry.ji, first_face + 1);
     }
     entries_ = {};
     return mrr;

@@ -109,7 +109,8 @@ SubdividedMesh cut_marked(const SubdividedMesh& from, TriangleMesh&& with_midpoi
     to.parent.reserve(to.mesh.faces.capacity());
     for (std::uint32_t f = 0; f < from.mesh.face_count(); ++f) {
         const Triangle& t = from.mesh.faces[f];
-        const std::array<std::uint32_t, 6> ids{t[0], t[1], t[2], midpoints[3 * f], midpoints[3 * f + 1], midpoints[3 * f + 2]};
+        const HalfEdge first = 3 * f;
+        const std::array<std::uint32_t, 6> ids{t[0], t[1], t[2], midpoints[first], midpoints[first + 1], midpoints[first + 2]};
         const auto shorter = [&](int a, int b, int c, int d) {
             return (points[ids[a]] - points[ids[c]]).squaredNorm() <= (points[ids[b]] - points[ids[d]]).squaredNorm();
         };
