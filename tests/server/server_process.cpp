@@ -11,8 +11,6 @@
 #include <fstream>
 #include <thread>
 
-extern char** environ;
-
 namespace vsplit::test {
 namespace {
 
@@ -51,6 +49,7 @@ ServerProcess::~ServerProcess() {
     close(errors_);
 }
 
+// NOLINTNEXTLINE(readability-make-member-function-const): what it reads is gone afterwards
 std::optional<std::string> ServerProcess::read_line() {
     std::string line;
     char c = 0;
