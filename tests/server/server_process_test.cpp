@@ -219,7 +219,7 @@ TEST_F(ServerProcessTest, AStalledReaderCostsLittleMemory) {
     start();
     const TriangleMesh mesh = torus(600, 500);  // 600,000 faces: 30 MB as text
     const std::string id = create_session(*stub_).message.id();
-    ASSERT_TRUE(upload(*stub_, id, file_of(mesh), 256 * 1024).status.ok());
+    ASSERT_TRUE(upload(*stub_, id, file_of(mesh), std::size_t{256} * 1024).status.ok());
     v1::DownloadMeshRequest request;
     request.set_session(id);
     request.set_format(v1::PLY_ASCII);
