@@ -27,7 +27,7 @@ public:
     /// The next message. Never called twice at a time; must not block. `message` is what it was made the time before.
     [[nodiscard]] virtual Step next(Message& message, grpc::Status& end) = 0;
 
-    /// Nobody listens any more. Any thread, perhaps during `next`.
+    /// Nobody listens any more; `next` is not called again.
     virtual void cancel() {}
 };
 

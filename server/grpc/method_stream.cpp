@@ -25,7 +25,6 @@ Expected<EventSourcePointer> MethodSource::begin(service::MeshingService& servic
     const auto options = wire::from_proto(request.options());
     if (!options) return options.error();
     auto news = std::make_shared<News>();
-    news->progress.put(wire::to_proto(Progress{"queued", 0, 0}));
     service::JobEvents events;
     events.on_progress = [news, wake](const Progress& progress) {
         news->progress.put(wire::to_proto(progress));
@@ -47,6 +46,11 @@ void MethodSource::cancel() {
 
 MethodSource::Step MethodSource::next(v1::ProgressiveEvent& event, grpc::Status& end) {
     if (ended_) return Step::kEnd;
+    if (!begun_) {
+        begun_ = true;
+        *event.mutable_progress() = wire::to_proto(Progress{"queued", 0, 0});
+        return Step::kMessage;
+    }
     return parts_ ? next_part(event) : next_news(event, end);
 }
 

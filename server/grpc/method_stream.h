@@ -12,8 +12,8 @@
 
 namespace vsplit::rpc {
 
-/// Improve and Control: progress while the method waits and runs, then the result's parts, and last the representation. Of the
-/// progress only the newest is kept; a reader that falls behind misses some.
+/// Improve and Control: progress while the method waits and runs, then the result's parts, and last the representation. The first
+/// word is always "queued"; of the progress that follows only the newest is kept, so a reader that falls behind misses some.
 class MethodSource final : public MessageSource<v1::ProgressiveEvent> {
 public:
     /// Starts the method. \return what MeshingService::start returns, INVALID_OPTION.
@@ -47,6 +47,7 @@ private:
     const std::shared_ptr<News> news_;
     service::SessionSnapshot::RepresentationPointer result_;
     std::optional<LevelParts> parts_;
+    bool begun_ = false;
     bool ended_ = false;
 };
 

@@ -51,14 +51,11 @@ public:
 
     void OnCancel() override {
         note_cancelled();
-        if (const std::shared_ptr<Source> source = current_source()) source->cancel();
         wake();
     }
 
     void OnDone() override {
-        std::shared_ptr<PullStream> last;  // may delete this at the end of the scope, when the lock is released
-        const std::lock_guard lock(mutex_);
-        last.swap(self_);
+        const std::shared_ptr<PullStream> last = std::move(self_);  // may delete this at the end of the scope
     }
 
 private:
@@ -103,6 +100,7 @@ private:
             if (step == Step::kEnd) return finish(end);
             if (!stay_awake()) return;
         }
+        source_->cancel();
         finish(grpc::Status(grpc::StatusCode::CANCELLED, "the client is gone or its deadline has passed"));
     }
 
@@ -130,24 +128,12 @@ private:
     // The owner keeps the ownership for good: nothing is written after this.
     void finish(const grpc::Status& status) {
         watch_.finished(status);
-        drop_source();
+        source_.reset();  // what it holds is freed now, not when the client has heard of the end
         this->Finish(status);
     }
 
-    // What the source holds is freed now, not when the client has heard of the end.
-    void drop_source() {
-        std::shared_ptr<Source> dropped;  // dies when the lock is released
-        const std::lock_guard lock(mutex_);
-        dropped.swap(source_);
-    }
-
-    [[nodiscard]] std::shared_ptr<Source> current_source() {
-        const std::lock_guard lock(mutex_);
-        return source_;
-    }
-
     const RpcWatch watch_;
-    std::shared_ptr<Source> source_;
+    SourcePointer source_;
     Message message_;
     std::mutex mutex_;
     bool busy_ = true;

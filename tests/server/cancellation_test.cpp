@@ -6,6 +6,7 @@
 #include <chrono>
 #include <future>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "test_client.h"
@@ -50,6 +51,21 @@ TEST_F(CancellationTest, CancellingTheCallStopsTheWork) {
     EXPECT_TRUE(eventually([&] { return idle(id); }, kSoon));
     EXPECT_EQ(get_session(server_.stub(), id).message.representations_size(), 0);
     EXPECT_TRUE(eventually([&] { return ended("Improve CANCELLED") == 1; }, kSoon));
+}
+
+TEST_F(CancellationTest, CancellingBetweenTwoWordsOfProgressStopsTheWork) {
+    // Whether the stream hears of it by a write that fails or by the cancel itself, the method must.
+    for (int i = 0; i < 20; ++i) {
+        const std::string id = large_session();
+        RunningImprove running(server_.stub(), long_improve(id));
+        ASSERT_TRUE(running.wait_until_queued());
+        std::this_thread::sleep_for(milliseconds(3 * i));
+        running.cancel();
+        static_cast<void>(running.finish());
+        EXPECT_TRUE(eventually([&] { return idle(id); }, kSoon));
+        EXPECT_EQ(get_session(server_.stub(), id).message.representations_size(), 0);
+        ASSERT_TRUE(delete_session(server_.stub(), id).ok());
+    }
 }
 
 TEST_F(CancellationTest, CancellingInEveryStageStopsTheWork) {
