@@ -19,7 +19,7 @@ constexpr const char* kAbout =
     "All lengths are in the units of the mesh. `vsplit VERB --help` tells a verb's options.";
 
 constexpr const char* kExitStatuses =
-    "Exit status: 0 done; 1 the input or an option is at fault; 2 done, but a bound of control could not be met.\n"
+    "Exit status: 0 done; 1 not done, stderr says why; 2 done, but a bound of control could not be met.\n"
     "Example:\n  vsplit improve crankshaft.stl -o improved.vsplit -o improved.stl";
 
 /// Refuses what is no number, in the words of the engine, before CLI11 does in its own.
@@ -81,6 +81,8 @@ void add_output(CLI::App& verb, Arguments& a) {
 void add_server(CLI::App& verb, Arguments& a) {
     constexpr const char* kGroup = "With a server";
     verb.add_option("--server", a.server, "Work on this vsplitd instead of in this process")
+        ->check(CLI::Validator(
+            [](const std::string& text) { return text.empty() ? std::string("is empty; accepted is HOST:PORT") : ""; }, ""))
         ->type_name("HOST:PORT")
         ->group(kGroup);
     verb.add_option("--session", a.session, "Use this session instead of uploading; leave IN out, or give -")
@@ -160,15 +162,18 @@ void add_improve(CLI::App& app, Arguments& a) {
     add_input(verb, a, "Closed mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
     verb.add_option(
             "--subdivide", a.improve.subdivision_size,
-            "Split edges until none is longer (the paper's sigma_SZ); length > 0. Default 1 % of the bounding box's diagonal")
+            "Split edges until none is longer (the paper's sigma_SZ); length > 0. Default 1 % of the bounding box's diagonal, or "
+            "more so that at most a million faces come out")
         ->check(real_number())
         ->type_name("S");
-    add_method(verb, a, a.improve, "a mean edge of 1.5 times --subdivide");
+    add_method(verb, a, a.improve,
+               "a mean edge of 1.5 times --subdivide, but at least twice as many as the coarsest resolution has");
     verb.footer("Example:\n  vsplit improve crankshaft.stl --subdivide 8 --tolerance 1 --faces 30000 -o improved.vsplit");
 }
 
 void add_control(CLI::App& app, Arguments& a) {
-    CLI::App& verb = *app.add_subcommand("control", "Bring stretch, size and valence within bounds");
+    CLI::App& verb =
+        *app.add_subcommand("control", "Bring stretch, size and valence within bounds; for meshes that were improved");
     add_input(verb, a, "Closed mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
     verb.add_option("--subdivisions", a.control.subdivisions, "One-to-four subdivisions first; 0 to 12. Default 1")
         ->check(whole_number())
@@ -213,7 +218,9 @@ std::string verb_names() {
 int refuse(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     const std::string help = chosen.empty() ? "vsplit --help" : "vsplit " + chosen.front()->get_name() + " --help";
-    const std::string what = chosen.empty() ? "no verb is given; accepted is one of " + verb_names() : error.what();
+    const bool unknown = chosen.empty() && !app.remaining().empty();
+    const std::string verb = unknown ? "there is no verb '" + app.remaining().front() + "'" : "no verb is given";
+    const std::string what = chosen.empty() ? verb + "; accepted is one of " + verb_names() : error.what();
     std::cerr << error_message({Cause::kInvalidOption, what + "; see `" + help + "`", ""});
     return kExitFailed;
 }

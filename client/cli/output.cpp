@@ -46,7 +46,11 @@ Status write_representation(const Outcome& outcome, const std::string& path) {
                          ".obj, .ply and .off, or `improve` or `control` the mesh first",
                      "output"};
     }
-    return save_mrr({*outcome.mrr, made->faces(), wire::to_json(*made)}, path);
+    // The same input and options give the same file: it holds nothing of the run that made it.
+    v1::Representation description = *made;
+    description.clear_id();
+    description.clear_elapsed();
+    return save_mrr({*outcome.mrr, description.faces(), wire::to_json(description)}, path);
 }
 
 }  // namespace

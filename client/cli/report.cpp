@@ -65,10 +65,16 @@ std::string worst_faces(const v1::Quality& q) {
 
 std::string details(const v1::Quality& q, bool detailed) { return detailed ? histogram(q) + worst_faces(q) : std::string(); }
 
+std::string closed_or_why(const v1::MeshSummary& m) {
+    if (m.closed()) return "yes";
+    if (m.boundary_edges() == 0) return "no, not manifold";
+    return "no, " + counted(m.boundary_edges(), "boundary edge", "boundary edges");
+}
+
 std::string text_of(const v1::MeshSummary& m, bool detailed) {
     std::string text = line("faces", grouped(m.faces()));
     text += line("vertices", grouped(m.vertices()));
-    text += line("closed", m.closed() ? "yes" : "no, " + counted(m.boundary_edges(), "boundary edge", "boundary edges"));
+    text += line("closed", closed_or_why(m));
     text += line("components", grouped(m.components()));
     if (m.closed()) text += line("genus", std::to_string(m.genus()));
     if (m.bounding_box().has_min()) text += line("box", point(m.bounding_box().min()) + " to " + point(m.bounding_box().max()));

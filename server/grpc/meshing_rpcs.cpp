@@ -72,9 +72,9 @@ grpc::ServerUnaryReactor* MeshingRpcs::answer_now(Context* context, const RpcWat
     return reactor;
 }
 
-grpc::ServerUnaryReactor* MeshingRpcs::answer_later(Context* context, const RpcWatch& watch, Answer answer) {
+grpc::ServerUnaryReactor* MeshingRpcs::answer_later(Context* context, const RpcWatch& watch, Submit submit, Answer answer) {
     grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
-    const bool taken = service_.errand([reactor, watch, answer = std::move(answer)] { finish(reactor, watch, answer); });
+    const bool taken = (service_.*submit)([reactor, watch, answer = std::move(answer)] { finish(reactor, watch, answer); });
     if (!taken) finish(reactor, watch, []() -> Status { return Error{Cause::kUnavailable, "the server is shutting down", ""}; });
     return reactor;
 }
@@ -88,7 +88,7 @@ auto* MeshingRpcs::stream(const char* method, const Request& request) {
 
 grpc::ServerUnaryReactor* MeshingRpcs::CreateSession(Context* context, const v1::CreateSessionRequest* request,
                                                      v1::Session* response) {
-    return answer_later(context, RpcWatch(ledger_, "CreateSession", ""),
+    return answer_later(context, RpcWatch(ledger_, "CreateSession", ""), &service::MeshingService::intake,
                         [this, request, response] { return create_session(service_, *request, *response); });
 }
 
@@ -107,7 +107,7 @@ grpc::ServerUnaryReactor* MeshingRpcs::GetSession(Context* context, const v1::Ge
 
 grpc::ServerUnaryReactor* MeshingRpcs::ListSessions(Context* context, const v1::ListSessionsRequest* request,
                                                     v1::ListSessionsResponse* response) {
-    return answer_later(context, RpcWatch(ledger_, "ListSessions", ""),
+    return answer_later(context, RpcWatch(ledger_, "ListSessions", ""), &service::MeshingService::errand,
                         [this, request, response] { return list_sessions(service_, *request, *response); });
 }
 
@@ -134,7 +134,7 @@ grpc::ServerWriteReactor<v1::MeshChunk>* MeshingRpcs::DownloadMesh(Context* /*co
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::GetQuality(Context* context, const v1::GetQualityRequest* request, v1::Quality* response) {
-    return answer_later(context, RpcWatch(ledger_, "GetQuality", request->session()),
+    return answer_later(context, RpcWatch(ledger_, "GetQuality", request->session()), &service::MeshingService::errand,
                         [this, request, response] { return get_quality(service_, *request, *response); });
 }
 

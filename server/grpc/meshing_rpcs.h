@@ -37,7 +37,9 @@ private:
     using Answer = std::function<Status()>;
 
     UnaryReactor* answer_now(Context* context, const RpcWatch& watch, const Answer& answer);
-    UnaryReactor* answer_later(Context* context, const RpcWatch& watch, Answer answer);
+    /// On a thread of the pool that `submit` stands for.
+    using Submit = bool (service::MeshingService::*)(service::WorkerPool::Task);
+    UnaryReactor* answer_later(Context* context, const RpcWatch& watch, Submit submit, Answer answer);
 
     template <class Source, class Request>
     auto* stream(const char* method, const Request& request);

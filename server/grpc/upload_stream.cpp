@@ -48,7 +48,7 @@ void UploadStream::OnReadDone(bool ok) {
 
 void UploadStream::OnSendInitialMetadataDone(bool ok) {
     if (!ok) return end(cut_off());
-    if (!service_.errand([this] { finish_upload(); })) end(shutting_down());
+    if (!service_.intake([this] { finish_upload(); })) end(shutting_down());
 }
 
 void UploadStream::finish_upload() {

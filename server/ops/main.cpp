@@ -3,9 +3,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <thread>
 #include <variant>
 
 #include "grpc/grpc_server.h"
@@ -52,7 +54,8 @@ int serve(const ServerOptions& options, const ListenAddress& address) {
     if (!server) return fail(server.error().message + ": " + why_not_listening(address));
     std::cout << "vsplitd listening on " << address.text(std::to_string((*server)->port())) << std::endl;
     const int signal = wait_for_stop_signal();
-    spdlog::info("signal {}: draining for at most {} s", signal, kGrace.count());
+    spdlog::info("signal {}: draining for at most {} s; a second signal ends it at once", signal, kGrace.count());
+    std::thread([] { std::_Exit(128 + wait_for_stop_signal()); }).detach();
     (*server)->shutdown(kGrace);
     service.shutdown();
     spdlog::info("stopped");

@@ -22,6 +22,7 @@ MeshingService::MeshingService(const ServiceOptions& options)
     : options_(options),
       methods_(options.workers == 0 ? cores() : options.workers),
       errands_(std::max(2U, cores())),
+      intake_(std::max(2U, cores())),
       disk_(kDiskThreads),
       sessions_(options, methods_),
       sweeper_(sweep_interval(options.session_ttl), [this] { sessions_.remove_expired(); }) {}
@@ -80,6 +81,7 @@ void MeshingService::shutdown() {
     cancel_all();
     methods_.shutdown();
     errands_.shutdown();
+    intake_.shutdown();
     disk_.shutdown();
 }
 

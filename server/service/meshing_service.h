@@ -19,7 +19,7 @@ struct RunningMethod {
     std::shared_ptr<Job> job;
 };
 
-/// Everything a front door needs, whatever it speaks. Thread-safe. Functions marked heavy are for `errand`, the others return at
+/// Everything a front door needs, whatever it speaks. Thread-safe. Functions marked heavy are for a pool, the others return at
 /// once.
 class MeshingService {
 public:
@@ -37,7 +37,8 @@ public:
     /// An empty session. \return LIMIT_EXCEEDED.
     [[nodiscard]] Expected<SessionSnapshot> create_session();
 
-    /// A session with a mesh, or none at all. Heavy. \return LIMIT_EXCEEDED, what `check_settings` and `read_source` return.
+    /// A session with a mesh, or none at all. Heavy: for `intake`. \return LIMIT_EXCEEDED, what `check_settings` and
+    /// `read_source` return.
     [[nodiscard]] Expected<SessionSnapshot> create_session(std::span<const std::byte> bytes, const MeshSettings& settings);
 
     /// \return NOT_FOUND, what Upload::begin returns.
@@ -47,8 +48,12 @@ public:
     /// \return NOT_FOUND, NOT_READY, LIMIT_EXCEEDED, what `check_options` and `require_closed_manifold` return; no event then.
     [[nodiscard]] Expected<RunningMethod> start(std::string_view session, const MethodRequest& request, JobEvents events);
 
-    /// Runs something heavy, on a thread of its own kind: a method never keeps a reader waiting. False when shut down.
+    /// Runs something heavy for a reader, on a thread of its own kind: no method and no mesh that comes in keeps it waiting.
+    /// False when shut down.
     [[nodiscard]] bool errand(WorkerPool::Task task) { return errands_.submit(std::move(task)).has_value(); }
+
+    /// As `errand`, for a mesh that comes in.
+    [[nodiscard]] bool intake(WorkerPool::Task task) { return intake_.submit(std::move(task)).has_value(); }
 
     /// As `errand`, for what waits for the disk.
     [[nodiscard]] bool disk_errand(WorkerPool::Task task) { return disk_.submit(std::move(task)).has_value(); }
@@ -63,6 +68,7 @@ private:
     const ServiceOptions options_;
     WorkerPool methods_;
     WorkerPool errands_;
+    WorkerPool intake_;
     WorkerPool disk_;
     SessionStore sessions_;
     Sweeper sweeper_;

@@ -10,6 +10,12 @@
 #include "base/file_error.h"
 
 namespace vsplit {
+namespace {
+
+/// A pipe or a device may never end.
+constexpr std::size_t kMostUnmapped = std::size_t{4} << 30;
+
+}  // namespace
 
 Expected<MappedFile> MappedFile::open(const std::filesystem::path& path) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
@@ -35,6 +41,10 @@ Expected<MappedFile> MappedFile::read_all(int descriptor, const std::filesystem:
     MappedFile file;
     std::size_t size = 0;
     for (;;) {
+        if (size > kMostUnmapped) {
+            return Error{Cause::kLimitExceeded,
+                         "more than 4 GiB came from '" + path.string() + "', which is no regular file; save it to one first", ""};
+        }
         file.copy_.resize(size + kPart);
         const ssize_t got = ::read(descriptor, file.copy_.data() + size, kPart);
         if (got < 0 && errno == EINTR) continue;

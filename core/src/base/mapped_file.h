@@ -14,7 +14,7 @@ namespace vsplit {
 /// lets strangers write to the files must hand over copies.
 class MappedFile {
 public:
-    /// \return NOT_FOUND, or FILE_ACCESS with the system's reason.
+    /// \return NOT_FOUND, FILE_ACCESS with the system's reason, or LIMIT_EXCEEDED for over 4 GiB from a pipe or a device.
     [[nodiscard]] static Expected<MappedFile> open(const std::filesystem::path& path);
 
     MappedFile(MappedFile&& other) noexcept;

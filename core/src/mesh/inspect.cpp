@@ -210,7 +210,8 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     report.non_manifold_vertices = vertices.count();
     report.degenerate_faces = degenerate.count();
     report.duplicate_faces = duplicates.count();
-    const bool manifold = report.non_manifold_edges + report.inconsistent_edges + report.non_manifold_vertices == 0;
+    const bool manifold =
+        report.non_manifold_edges + report.inconsistent_edges + report.non_manifold_vertices + report.duplicate_faces == 0;
     report.closed = manifold && report.boundary_edges == 0 && report.faces > 0;
     if (report.closed) {
         const std::int64_t euler = std::int64_t{used_vertices(mesh)} - edges.edges + report.faces;
@@ -245,10 +246,16 @@ Status require_closed_manifold(const MeshReport& report) {
                          places(*f, true) + " (vertex indices); faces must be oriented consistently",
                      ""};
     }
+    if (const Finding* f = find_kind(report, Kind::kDuplicateFace)) {
+        return Error{Cause::kNonManifold,
+                     std::to_string(f->count) + " faces have the same three vertices as another one: " + places(*f, false) +
+                         " (face indices); a sheet needs a thickness, or one face only",
+                     ""};
+    }
     if (const Finding* f = find_kind(report, Kind::kBoundaryEdge)) {
         return Error{Cause::kOpenMesh,
                      "the mesh is open: " + std::to_string(f->count) + " edges have one face only: " + places(*f, true) +
-                         " (vertex indices); a closed mesh is needed (a weld tolerance may close small gaps)",
+                         " (vertex indices); a closed mesh is needed (--weld, in model units, may close small gaps)",
                      ""};
     }
     if (const Finding* f = find_kind(report, Kind::kNonManifoldVertex)) {

@@ -71,9 +71,12 @@ std::vector<std::uint32_t> valences(const TriangleMesh& mesh) {
 /// Why a bound could not be met: everything was collapsed that may be, or the resolution asked for comes before the mending.
 std::string reason_for(const Violation& violation, bool coarsest) {
     const std::string what = violation.bound == "max_valence" ? "vertices" : "faces";
-    if (coarsest) return "no valid collapse mends the remaining " + what + " within the tolerance and the other bounds";
-    return "the collapses that mend these " + what +
-           " come at fewer faces than were asked for, or none within the tolerance does";
+    if (coarsest) {
+        return "no valid collapse mends these " + what +
+               " within the tolerance and the other bounds; a larger tolerance or looser bounds may, and so may improving first";
+    }
+    return "these " + what +
+           " are left at the faces asked for; fewer faces, a larger tolerance or improving the mesh first may mend them";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "mesh/coordinate.h"
 #include "simplify/fan.h"
 #include "simplify/half_edge_mesh.h"
 #include "simplify/local_state.h"
@@ -65,6 +66,7 @@ private:
     [[nodiscard]] bool attempt(const Quadric& quadric, const Vec3& place) {
         if (!(quadric.error(place) <= error_limit_)) return false;
         const Vec3 position = place + centre_;
+        if (!is_valid_position(position)) return false;  // rounding may step over the limit of coordinates
         const Fan::Shape shape = fan_.shape_at(position);
         if (shape.folds || !policy_.admits(before_, shape)) return false;
         valid_ = {Evaluation::Verdict::kValid, policy_.factor(before_) * shape_quality(shape, fan_.size()), position};

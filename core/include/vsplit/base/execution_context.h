@@ -18,7 +18,8 @@ struct Progress {
 
 /// What a long verb runs in: who hears of its progress, who may stop it, how many threads it may take.
 ///
-/// Progress is reported, and a cancel obeyed, at least every 4096 edge evaluations or faces (well under 10 ms), always on the
+/// Progress is reported at every stage and every 1024 collapses, and a cancel obeyed every 64 collapses, between rounds of
+/// subdivision and between stages: well under 10 ms while simplifying, up to a pass over all faces elsewhere. Always on the
 /// thread that called the verb. Not copyable; must outlive the call. `cancel()` may be called from any thread.
 class ExecutionContext {
 public:

@@ -39,7 +39,7 @@ struct Finding {
 struct MeshReport {
     std::uint32_t vertices = 0;
     std::uint32_t faces = 0;
-    bool closed = false;           ///< no boundary edge and manifold
+    bool closed = false;           ///< no boundary edge, no duplicate face, manifold
     std::uint32_t components = 0;  ///< connected by shared edges
     std::int32_t genus = 0;        ///< summed over components; meaningful when closed, else 0
     std::uint32_t boundary_edges = 0;
@@ -57,7 +57,8 @@ struct MeshReport {
 /// bytes a face of memory. \pre every index is below the number of vertices (what `read_mesh` and `weld` return).
 [[nodiscard]] MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld = {});
 
-/// Whether the methods accept this mesh: closed, manifold and consistently oriented, at least 4 faces, finite.
+/// Whether the methods accept this mesh: closed, manifold and consistently oriented, no two faces on the same three
+/// vertices.
 /// \return NON_MANIFOLD or OPEN_MESH naming the first edges at fault, EMPTY_INPUT for no faces.
 [[nodiscard]] Status require_closed_manifold(const MeshReport& report);
 
