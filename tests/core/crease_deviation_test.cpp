@@ -70,8 +70,8 @@ TEST(CreaseDeviationTest, TheMiddleOfACreaseCountsWhereItsEndsAreKept) {
 }
 
 TEST(CreaseDeviationTest, LostIsAShareOfLength) {
-    // A cube without its top: of the twelve creases of the whole one none is lost, the rim is a boundary now. Without a side face's
-    // half too, one edge of four at the top hangs in the air.
+    // A cube without its top: of the twelve creases of the whole one none is lost, the rim is a boundary now. Without a side
+    // face's half too, one edge of four at the top hangs in the air.
     TriangleMesh open = test::cube();
     const auto on_top = [&](const Triangle& t) {
         return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return open.positions[v].z() == 1; });

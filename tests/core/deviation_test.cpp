@@ -37,7 +37,8 @@ double sampled(const TriangleMesh& from, const TriangleMesh& to, int steps) {
     for (const Triangle& t : from.faces) {
         for (int i = 0; i <= steps; ++i) {
             for (int j = 0; i + j <= steps; ++j) {
-                const Vec3 p = (from.positions[t[0]] * i + from.positions[t[1]] * j + from.positions[t[2]] * (steps - i - j)) / steps;
+                const Vec3 p =
+                    (from.positions[t[0]] * i + from.positions[t[1]] * j + from.positions[t[2]] * (steps - i - j)) / steps;
                 largest = std::max(largest, index.closest(p).squared_distance);
             }
         }
@@ -51,7 +52,8 @@ void expect_certain(const DirectedDeviation& d, const TriangleMesh& from, const 
     const double diagonal = bounding_box(to).diagonal();
     const double rounding = 1e-12 * std::max(diagonal, bounding_box(from).diagonal());
     EXPECT_LE(d.lower, d.upper);
-    const double absolute = options.absolute_error > 0 ? options.absolute_error : 1e-5 * std::max(diagonal, bounding_box(from).diagonal());
+    const double absolute =
+        options.absolute_error > 0 ? options.absolute_error : 1e-5 * std::max(diagonal, bounding_box(from).diagonal());
     EXPECT_LE(d.upper - d.lower, std::max(absolute, options.relative_error * d.lower) + rounding);
     EXPECT_NEAR(std::sqrt(surface_index(to).closest(d.at).squared_distance), d.lower, rounding);
     EXPECT_NEAR(surface_index(from).closest(d.at).squared_distance, 0, rounding) << "a point of what is measured from";
@@ -121,8 +123,8 @@ TEST(DeviationTest, ParallelPlanesAreTheirDistanceApart) {
     const Deviation d = measured(moved(sheet(5), 1, Vec3(0, 0, 0.25)), sheet(8));
     EXPECT_EQ(d.to_source.lower, 0.25);
     EXPECT_LE(d.max(), 0.25 * 1.02);
-    EXPECT_NEAR(measured(moved(sheet(5), 1, Vec3(0, 0, 0.25)), sheet(8), {.relative_error = 0, .absolute_error = 1e-12}).max(), 0.25,
-                2e-12)
+    EXPECT_NEAR(measured(moved(sheet(5), 1, Vec3(0, 0, 0.25)), sheet(8), {.relative_error = 0, .absolute_error = 1e-12}).max(),
+                0.25, 2e-12)
         << "pieces over one face each are as near as their corners";
 }
 
@@ -233,7 +235,8 @@ TEST(DeviationTest, IsTheSameForAnyNumberOfThreads) {
     const auto equal = [](const DirectedDeviation& l, const DirectedDeviation& r) {
         return l.lower == r.lower && l.upper == r.upper && l.at == r.at;
     };
-    for (const DeviationOptions& options : {DeviationOptions{}, DeviationOptions{.relative_error = 1e-3, .evaluations = 20'000}}) {
+    for (const DeviationOptions& options :
+         {DeviationOptions{}, DeviationOptions{.relative_error = 1e-3, .evaluations = 20'000}}) {
         const Deviation one = measured(coarse, fine, options, 1);
         const Deviation two = measured(coarse, fine, options, 2);
         EXPECT_TRUE(equal(one.to_source, two.to_source));

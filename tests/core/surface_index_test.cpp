@@ -44,7 +44,9 @@ void expect_same_as_all(const ShapeIndex<Shape>& index, const Vec3& p) {
 
 /// Nearest point by ternary search along one side, nested; slow, and of another kind than what it checks.
 double distance_by_search(const TriangleShape& t, const Vec3& p) {
-    const auto& [a, b, c] = t.corners;
+    const Vec3& a = t.corners[0];
+    const Vec3& b = t.corners[1];
+    const Vec3& c = t.corners[2];
     const auto along = [&](double u) {
         const Vec3 from = a + (b - a) * u;
         const Vec3 to = a + (c - a) * u;
@@ -56,7 +58,11 @@ double distance_by_search(const TriangleShape& t, const Vec3& p) {
     double high = 1;
     for (int i = 0; i < 200; ++i) {
         const double third = (high - low) / 3;
-        (along(low + third) < along(high - third) ? high : low) = along(low + third) < along(high - third) ? high - third : low + third;
+        if (along(low + third) < along(high - third)) {
+            high -= third;
+        } else {
+            low += third;
+        }
     }
     return along((low + high) / 2);
 }

@@ -111,7 +111,8 @@ Expected<CreaseDeviation> measure_creases(const TriangleMesh& result, const Tria
     }
     const CreaseIndex index = crease_index(result.positions, to);
     const auto tell = [&](double fraction) { context.report({"measure", fraction, result.face_count()}); };
-    const Expected<DirectedDeviation> distance = directed_deviation<SegmentShape>({source.positions, from}, index, *limits, context, tell);
+    const Expected<DirectedDeviation> distance =
+        directed_deviation<SegmentShape>({source.positions, from}, index, *limits, context, tell);
     if (!distance) return distance.error();
     const double lost = samples.share_beyond(options.lost_distance, index);
     if (context.cancelled()) return ExecutionContext::cancelled_error();

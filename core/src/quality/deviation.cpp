@@ -40,13 +40,14 @@ Expected<Deviation> measure_both(const IndexedMesh& result, const IndexedMesh& s
 
 Status require_faces(const TriangleMesh& mesh, const char* which) {
     if (!mesh.faces.empty()) return Done{};
-    return Error{Cause::kEmptyInput, std::string("the ") + which + " has no faces; a distance needs at least one on either side", ""};
+    return Error{Cause::kEmptyInput, std::string("the ") + which + " has no faces; a distance needs at least one on either side",
+                 ""};
 }
 
 Expected<SearchLimits> search_limits(const DeviationOptions& options, double diagonal, std::uint64_t elements) {
     if (!(options.relative_error >= 0 && options.relative_error <= 1)) {
-        return Error{Cause::kInvalidOption, "the relative error is " + number_text(options.relative_error) + "; 0 to 1 is accepted",
-                     "relative_error"};
+        return Error{Cause::kInvalidOption,
+                     "the relative error is " + number_text(options.relative_error) + "; 0 to 1 is accepted", "relative_error"};
     }
     if (!(options.absolute_error >= 0) || !std::isfinite(options.absolute_error)) {
         return Error{Cause::kInvalidOption,

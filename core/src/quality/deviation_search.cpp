@@ -18,7 +18,7 @@
 namespace vsplit {
 namespace {
 
-constexpr std::size_t kChunk = 64;          ///< elements or pieces that one thread looks at in a row
+constexpr std::size_t kChunk = 64;           ///< elements or pieces that one thread looks at in a row
 constexpr std::size_t kBatch = 64 * kChunk;  ///< between looks at the common lower bound, and at cancel()
 constexpr std::uint64_t kFirstSteps = 24;    ///< looks spent on each piece a round; doubled every round
 constexpr std::uint64_t kMostSteps = 4096;
@@ -83,8 +83,8 @@ private:
         return lower + std::max(limits_.absolute_error, limits_.relative_error * lower);
     }
 
-    /// Runs work(begin, end, found) over 0..count in chunks, each with the lower bound of the batches before, and adds up what they
-    /// found in their order. False when cancelled.
+    /// Runs work(begin, end, found) over 0..count in chunks, each with the lower bound of the batches before, and adds up what
+    /// they found in their order. False when cancelled.
     template <class Work>
     bool in_batches(std::size_t count, double progress_from, double progress_to, const Work& work) {
         for (std::size_t begin = 0; begin < count; begin += kBatch) {
@@ -144,10 +144,11 @@ private:
             pieces.swap(all_.open);
             std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& l, const Piece& r) { return l.upper > r.upper; });
             steps = std::min(2 * steps, kMostSteps);
-            const bool whole = in_batches(pieces.size(), from, (from + 1) / 2, [&](std::size_t begin, std::size_t end, Findings& found) {
-                const bool spent = all_.steps >= limits_.evaluations;
-                for (std::size_t i = begin; i < end; ++i) look_at(std::move(pieces[i]), spent ? 0 : steps, found);
-            });
+            const bool whole =
+                in_batches(pieces.size(), from, (from + 1) / 2, [&](std::size_t begin, std::size_t end, Findings& found) {
+                    const bool spent = all_.steps >= limits_.evaluations;
+                    for (std::size_t i = begin; i < end; ++i) look_at(std::move(pieces[i]), spent ? 0 : steps, found);
+                });
             if (!whole) return false;
         }
         return true;
@@ -288,8 +289,9 @@ private:
 }  // namespace
 
 template <class Shape>
-Expected<DirectedDeviation> directed_deviation(const ShapesOf<Shape>& from, const ShapeIndex<Shape>& to, const SearchLimits& limits,
-                                               const ExecutionContext& context, const SearchProgress& progress) {
+Expected<DirectedDeviation> directed_deviation(const ShapesOf<Shape>& from, const ShapeIndex<Shape>& to,
+                                               const SearchLimits& limits, const ExecutionContext& context,
+                                               const SearchProgress& progress) {
     if (from.elements.empty()) return DirectedDeviation{};
     if (to.empty()) {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -278,8 +278,8 @@ ShapeIndex<Shape>::ShapeIndex(std::vector<Shape> shapes) {
             items[i].element = static_cast<std::uint32_t>(i);
             for (const Vec3& corner : shapes[i].corners) {
                 const Eigen::Vector3f p = ((corner - centre_) * scale_).template cast<float>();
-                items[i].box.add({{p.x() - kMargin, p.y() - kMargin, p.z() - kMargin},
-                                  {p.x() + kMargin, p.y() + kMargin, p.z() + kMargin}});
+                items[i].box.add(
+                    {{p.x() - kMargin, p.y() - kMargin, p.z() - kMargin}, {p.x() + kMargin, p.y() + kMargin, p.z() + kMargin}});
             }
         }
     });

@@ -10,6 +10,9 @@ namespace {
 /// decide by their signs alone.
 constexpr double kThin = 1e-8;
 
+/// Projections nearer to an edge than this share of the height are taken to the edge, where corners are exact.
+constexpr double kBorder = 1e-12;
+
 /// An end is given exactly, so that all shapes that meet at it are equally far from a point nearest to it.
 Footpoint closest_on_segment(const Vec3& a, const Vec3& b, const Vec3& p) {
     const Vec3 ab = b - a;
@@ -53,21 +56,19 @@ Footpoint TriangleShape::closest(const Vec3& p) const {
     const double weight_a = whole - weight_b - weight_c;
     const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
     const bool thin = !(whole > kThin * longest * longest);
-    const bool inside = whole > 0 && weight_a >= 0 && weight_b >= 0 && weight_c >= 0;
+    const double border = kBorder * whole;
+    const bool inside = weight_a > border && weight_b > border && weight_c > border;
 
-    // Corners are tried first for their own sake: they are exact where the weights are not.
     Footpoint best{ap.squaredNorm(), a};
-    keep_nearer(best, {(p - b).squaredNorm(), b});
-    keep_nearer(best, {(p - c).squaredNorm(), c});
     if (inside) {
         const Vec3 q = a + ab * (weight_b / whole) + ac * (weight_c / whole);
+        if (!thin) return {(p - q).squaredNorm(), q};
         keep_nearer(best, {(p - q).squaredNorm(), q});
-        if (!thin) return best;
     }
     // From outside, the nearest point is on an edge whose line separates p's projection from the triangle.
-    if (thin || weight_c < 0) keep_nearer(best, closest_on_segment(a, b, p));
-    if (thin || weight_b < 0) keep_nearer(best, closest_on_segment(a, c, p));
-    if (thin || weight_a < 0) keep_nearer(best, closest_on_segment(b, c, p));
+    if (thin || weight_c <= border) keep_nearer(best, closest_on_segment(a, b, p));
+    if (thin || weight_b <= border) keep_nearer(best, closest_on_segment(a, c, p));
+    if (thin || weight_a <= border) keep_nearer(best, closest_on_segment(b, c, p));
     return best;
 }
 

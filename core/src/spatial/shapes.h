@@ -38,8 +38,8 @@ struct TriangleShape {
     static constexpr std::size_t kCorners = 3;
     std::array<Vec3, kCorners> corners;
 
-    /// Exact up to rounding, which for slivers too can be no more than about 1e-8 of the longest edge, and then to the far side: the
-    /// point given is always one of the triangle.
+    /// Exact up to rounding, which for slivers too can be no more than about 1e-8 of the longest edge, and then to the far side:
+    /// the point given is always one of the triangle.
     [[nodiscard]] Footpoint closest(const Vec3& p) const;
 
     /// The half-spaces of unit normal across its edges, perpendicular to its plane.

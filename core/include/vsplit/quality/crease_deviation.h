@@ -10,10 +10,10 @@
 namespace vsplit {
 
 struct CreaseDeviationOptions {
-    double angle = 40;          ///< degrees, 0 to 180: an edge whose faces' normals differ by more is a crease
-    double lost_distance = 0;   ///< length, model units; >= 0. A source crease further than this from all of the result's is lost.
-                                ///< 0: 0.2 % of the source's bounding-box diagonal
-    double spacing = 0;         ///< most length of crease a sample stands for, model units; >= 0. 0: half of lost_distance
+    double angle = 40;         ///< degrees, 0 to 180: an edge whose faces' normals differ by more is a crease
+    double lost_distance = 0;  ///< length, model units; >= 0. A source crease further than this from all of the result's is lost.
+                               ///< 0: 0.2 % of the source's bounding-box diagonal
+    double spacing = 0;        ///< most length of crease a sample stands for, model units; >= 0. 0: half of lost_distance
     DeviationOptions accuracy = {};  ///< of the distances
 };
 

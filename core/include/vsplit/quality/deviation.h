@@ -8,8 +8,8 @@
 
 namespace vsplit {
 
-/// How close the bounds of a measured distance are to be. The measure refines until upper - lower is at most the larger of the two
-/// tolerances.
+/// How close the bounds of a measured distance are to be. The measure refines until upper - lower is at most the larger of the
+/// two tolerances.
 struct DeviationOptions {
     double relative_error = 0.02;   ///< share of the lower bound; 0 to 1
     double absolute_error = 0;      ///< length, model units; >= 0. 0: 1e-5 of the source's bounding-box diagonal
@@ -32,18 +32,17 @@ struct Deviation {
     /// No point of either is further than this from the other.
     [[nodiscard]] double max() const { return to_source.upper > from_source.upper ? to_source.upper : from_source.upper; }
     /// A point of one of them is this far from the other.
-    [[nodiscard]] double measured() const {
-        return to_source.lower > from_source.lower ? to_source.lower : from_source.lower;
-    }
+    [[nodiscard]] double measured() const { return to_source.lower > from_source.lower ? to_source.lower : from_source.lower; }
 };
 
-/// The two-sided (Hausdorff) distance between two triangle meshes, open or closed, manifold or not, by branch and bound: faces are
-/// cut into pieces until the bound of each is within the tolerance of the largest distance found. Where the budget of
+/// The two-sided (Hausdorff) distance between two triangle meshes, open or closed, manifold or not, by branch and bound: faces
+/// are cut into pieces until the bound of each is within the tolerance of the largest distance found. Where the budget of
 /// evaluations ends first the bounds are wider than asked, and still true.
 ///
 /// Progress has the one stage "measure". \pre indices of faces are below the number of vertices, coordinates finite.
 /// \return INVALID_OPTION (relative_error, absolute_error), EMPTY_INPUT where a mesh has no faces, CANCELLED.
-/// Time about that of 1 to 10 nearest-point queries a face of both; memory 250 bytes a face. The same bits for any number of threads.
+/// Time about that of 1 to 10 nearest-point queries a face of both; memory 250 bytes a face. The same bits for any number of
+/// threads.
 [[nodiscard]] Expected<Deviation> measure_deviation(const TriangleMesh& result, const TriangleMesh& source,
                                                     const DeviationOptions& options, const ExecutionContext& context);
 
