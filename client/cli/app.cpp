@@ -3,9 +3,11 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
 #include <variant>
 
 #include "cli/arguments.h"
+#include "cli/comparison.h"
 #include "cli/interrupt.h"
 #include "cli/local_run.h"
 #include "cli/message.h"
@@ -20,13 +22,15 @@
 namespace vsplit::cli {
 namespace {
 
-const google::protobuf::Message& document_of(const Outcome& outcome) {
-    return std::visit([](const auto& d) -> const google::protobuf::Message& { return d; }, outcome.document);
+std::string json_of(const Document& document) {
+    if (const auto* comparison = std::get_if<Comparison>(&document)) return to_json(*comparison);
+    if (const auto* made = std::get_if<v1::Representation>(&document)) return wire::to_json(*made, wire::JsonStyle::kIndented);
+    return wire::to_json(std::get<v1::MeshSummary>(document), wire::JsonStyle::kIndented);
 }
 
 void print(const Arguments& arguments, const Outcome& outcome) {
     if (arguments.json) {
-        std::cout << wire::to_json(document_of(outcome), wire::JsonStyle::kIndented) << std::flush;
+        std::cout << json_of(outcome.document) << std::flush;
     } else {
         std::cout << report(outcome.document, arguments.verb == Verb::kQuality) << written_lines(arguments.outputs) << std::flush;
     }

@@ -151,10 +151,13 @@ void add_info(CLI::App& app, Arguments& a) {
 void add_quality(CLI::App& app, Arguments& a) {
     CLI::App& verb = *app.add_subcommand("quality", "As info, with the histogram of stretch and the worst faces");
     add_input(verb, a, "Mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
+    verb.add_option("--against", a.against,
+                    "Measure the distance to this mesh or .vsplit file instead, both ways and between creases; not with a server")
+        ->type_name("FILE");
     add_resolution(verb, a, "Resolution of a representation to describe. Default: the one it was made for");
     verb.footer(
         "Stretch is sqrt(12) * inradius / longest edge: 1 equilateral, 0 degenerate; solvers want 0.2 and more.\n"
-        "Example:\n  vsplit quality improved.vsplit --faces 5000");
+        "Example:\n  vsplit quality improved.vsplit --faces 5000\n  vsplit quality improved.stl --against part.stl");
 }
 
 void add_improve(CLI::App& app, Arguments& a) {

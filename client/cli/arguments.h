@@ -28,6 +28,7 @@ struct Arguments {
     std::optional<std::uint32_t> source_faces;  ///< improve, control: resolution of the representation to work on
     ImproveOptions improve;
     ControlOptions control;
+    std::string against;  ///< quality: the mesh to measure the distance to; empty: none
     std::string server;
     std::string session;
     std::string representation;

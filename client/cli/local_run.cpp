@@ -1,6 +1,8 @@
 #include "cli/local_run.h"
 
 #include <functional>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "vsplit/base/execution_context.h"
@@ -19,26 +21,30 @@ namespace {
 
 using StopCallback = std::stop_callback<std::function<void()>>;
 
+Error one_resolution(const char* field) {
+    return {Cause::kInvalidOption, "a mesh has one resolution; accepted with a .vsplit file only", field};
+}
+
 Status check_arguments(const Arguments& a) {
     if (!a.session.empty() || !a.representation.empty() || a.keep) {
         return Error{Cause::kInvalidOption, "--session, --representation and --keep need --server", "server"};
     }
     if (a.input.empty() || a.input == "-") return Error{Cause::kInvalidOption, "a file is needed to work on", "input"};
-    if (a.source_faces && !is_representation_file(a.input)) {
-        return Error{Cause::kInvalidOption, "a mesh has one resolution; accepted with a .vsplit file only", "source_faces"};
-    }
+    if (a.source_faces && !is_representation_file(a.input)) return one_resolution("source_faces");
+    if (!a.against.empty() && a.faces && !is_representation_file(a.input)) return one_resolution("faces");
     return wire::check_repair(a.repair);
 }
 
 Expected<ReadResult> read_mesh_input(const Arguments& a) { return read_mesh_file(a.input, {.weld = a.weld}); }
 
-Expected<TriangleMesh> read_source(const Arguments& a) {
-    if (is_representation_file(a.input)) {
-        Expected<Outcome> stored = load_representation(a.input, a.source_faces);
+/// A mesh, or a .vsplit file at a resolution.
+Expected<TriangleMesh> read_any(const std::string& path, std::optional<std::uint32_t> faces, double weld) {
+    if (is_representation_file(path)) {
+        Expected<Outcome> stored = load_representation(path, faces);
         if (!stored) return stored.error();
         return *std::move(stored->mesh);
     }
-    Expected<ReadResult> read = read_mesh_input(a);
+    Expected<ReadResult> read = read_mesh_file(path, {.weld = weld});
     if (!read) return read.error();
     return std::move(read->mesh);
 }
@@ -49,7 +55,7 @@ template <class Options>
 Expected<Outcome> run_method(const Arguments& a, const Options& options, const MethodFunction& method, ProgressBar& progress,
                              const std::stop_token& stop) {
     if (Status valid = check_options(options); !valid) return valid.error();
-    const Expected<TriangleMesh> source = read_source(a);
+    const Expected<TriangleMesh> source = read_any(a.input, a.source_faces, a.weld);
     if (!source) return source.error();
     ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
     const StopCallback on_stop(stop, [&context] { context.cancel(); });
@@ -80,14 +86,24 @@ void add_worst_faces(const TriangleMesh& mesh, v1::Quality& quality) {
 }
 
 Expected<Outcome> describe_mesh(const Arguments& a) {
-    if (a.faces) {
-        return Error{Cause::kInvalidOption, "a mesh has one resolution; accepted with a .vsplit file only", "faces"};
-    }
+    if (a.faces) return one_resolution("faces");
     Expected<ReadResult> read = read_mesh_input(a);
     if (!read) return read.error();
     v1::MeshSummary summary = wire::to_proto(inspect(read->mesh, read->weld));
     if (a.verb == Verb::kQuality) add_worst_faces(read->mesh, *summary.mutable_quality());
     return Outcome{std::move(summary), std::move(read->mesh), {}};
+}
+
+Expected<Outcome> compare_meshes(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
+    Expected<TriangleMesh> mesh = read_any(a.input, a.faces, a.weld);
+    if (!mesh) return mesh.error();
+    const Expected<TriangleMesh> against = read_any(a.against, {}, a.weld);
+    if (!against) return against.error();
+    ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
+    const StopCallback on_stop(stop, [&context] { context.cancel(); });
+    const Expected<Comparison> comparison = compare(*mesh, *against, context);
+    if (!comparison) return comparison.error();
+    return Outcome{*comparison, *std::move(mesh), {}};
 }
 
 Expected<Outcome> describe_representation(const Arguments& a) {
@@ -122,6 +138,7 @@ Expected<Outcome> run_locally(const Arguments& a, ProgressBar& progress, const s
     if (Status valid = check_arguments(a); !valid) return valid.error();
     if (a.verb == Verb::kImprove) return run_improve(a, progress, stop);
     if (a.verb == Verb::kControl) return run_control(a, progress, stop);
+    if (!a.against.empty()) return compare_meshes(a, progress, stop);
     if (is_representation_file(a.input)) return describe_representation(a);
     if (a.verb != Verb::kResolution) return describe_mesh(a);
     return Error{Cause::kInvalidOption, "'" + a.input + "' is no .vsplit file; make one with `vsplit improve MESH -o x.vsplit`",

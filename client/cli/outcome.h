@@ -3,6 +3,7 @@
 #include <optional>
 #include <variant>
 
+#include "cli/comparison.h"
 #include "vsplit/mesh/triangle_mesh.h"
 #include "vsplit/mrr/multires_mesh.h"
 #include "vsplit/v1/meshing.pb.h"
@@ -10,7 +11,7 @@
 namespace vsplit::cli {
 
 /// What `--json` prints and what the report tells.
-using Document = std::variant<v1::MeshSummary, v1::Representation>;
+using Document = std::variant<v1::MeshSummary, v1::Representation, Comparison>;
 
 /// What a verb came to.
 struct Outcome {

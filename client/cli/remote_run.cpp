@@ -28,6 +28,7 @@ Status check_input(const Arguments& a) {
 
 Status check_arguments(const Arguments& a) {
     if (Status valid = check_input(a); !valid) return valid;
+    if (!a.against.empty()) return invalid("two meshes are compared without a server; leave --server out", "against");
     const bool method = a.verb == Verb::kImprove || a.verb == Verb::kControl;
     if (!method && is_representation_file(a.input)) {
         return invalid("a .vsplit file is read without a server; leave --server out", "server");

@@ -137,6 +137,24 @@ std::string text_of(const v1::Representation& r, bool detailed) {
     return text + details(r.quality(), detailed);
 }
 
+/// Both bounds, and the upper one as a share of the diagonal.
+std::string bounds_text(const DirectedDeviation& d, double diagonal) {
+    const std::string share_of_diagonal = diagonal > 0 ? " (" + fixed(100 * d.upper / diagonal, 4) + " % of the diagonal)" : "";
+    return figure(d.lower) + " to " + figure(d.upper) + share_of_diagonal;
+}
+
+std::string text_of(const Comparison& c, bool /*detailed*/) {
+    std::string text = line("faces", grouped(c.faces) + " against " + grouped(c.faces_against));
+    text += line("diagonal", figure(c.diagonal));
+    text += line("to source", bounds_text(c.surface.to_source, c.diagonal));
+    text += line("from source", bounds_text(c.surface.from_source, c.diagonal));
+    text += line("crease edges", grouped(c.creases.result_creases) + " against " + grouped(c.creases.source_creases));
+    if (c.creases.source_creases == 0) return text;
+    if (c.creases.result_creases == 0) return text + line("creases", "none is kept");
+    text += line("creases", bounds_text(c.creases.from_source, c.diagonal));
+    return text + line("creases lost", fixed(100 * c.creases.lost, 2) + " % of their length");
+}
+
 }  // namespace
 
 std::string report(const Document& document, bool detailed) {

@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <google/protobuf/struct.pb.h>
 #include <gtest/gtest.h>
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): kill is POSIX
 #include <stdlib.h>  // NOLINT(modernize-deprecated-headers): pseudo-terminals are POSIX
@@ -68,6 +69,40 @@ Message json_of(const CommandResult& result) {
     const Status read = wire::from_json(result.out, message);
     EXPECT_TRUE(read) << result.out << result.err;
     return message;
+}
+
+TEST_F(CommandLineTest, QualityAgainstTellsTheDistanceBothWays) {
+    TriangleMesh inner = test::cube();
+    for (Vec3& p : inner.positions) p = p * 0.5 + Vec3(0.25, 0.25, 0.25);
+    const std::string one = mesh_file("inner.off", inner);
+    const std::string other = mesh_file("cube.stl", test::cube());
+    const CommandResult told = run({"quality", one, "--against", other});
+    EXPECT_EQ(told.exit_status, 0) << told.err;
+    EXPECT_NE(told.out.find("to source         0.25 to 0.25"), std::string::npos) << told.out;
+    EXPECT_NE(told.out.find("from source       0.433013 to "), std::string::npos) << told.out;
+    EXPECT_NE(told.out.find("creases lost      100.00 % of their length"), std::string::npos) << told.out;
+
+    google::protobuf::Struct document;
+    ASSERT_TRUE(wire::from_json(run({"quality", one, "--against", other, "--json"}).out, document));
+    const auto& fields = document.fields();
+    EXPECT_NEAR(fields.at("fromSource").struct_value().fields().at("lower").number_value(), 0.4330127, 1e-6);
+    EXPECT_GE(fields.at("deviationMax").number_value(), fields.at("deviationMeasured").number_value());
+    EXPECT_EQ(fields.at("creasesAgainst").number_value(), 12);
+
+    ASSERT_TRUE(
+        wire::from_json(run({"quality", mesh_file("ball.off", test::icosphere(3)), "--against", other, "--json"}).out, document));
+    EXPECT_TRUE(document.fields().at("creasesFromSource").struct_value().fields().at("upper").has_null_value())
+        << "there is no crease to be near to";
+}
+
+TEST_F(CommandLineTest, QualityAgainstRefusesWhatItCannotCompare) {
+    const std::string cube = mesh_file("cube.stl", test::cube());
+    EXPECT_NE(run({"quality", cube, "--against", file("none.stl")}).err.find("none.stl"), std::string::npos);
+    const CommandResult remote = run({"quality", cube, "--against", cube, "--server", "127.0.0.1:1"});
+    EXPECT_EQ(remote.exit_status, 1);
+    EXPECT_NE(remote.err.find("leave --server out"), std::string::npos) << remote.err;
+    const CommandResult faces = run({"quality", cube, "--against", cube, "--faces", "10"});
+    EXPECT_NE(faces.err.find("--faces"), std::string::npos) << faces.err;
 }
 
 TEST_F(CommandLineTest, InfoDescribesAMesh) {

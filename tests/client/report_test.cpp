@@ -22,6 +22,14 @@ TEST(ReportTest, TellsWhatAMeshIs) {
     EXPECT_FALSE(has(text, "worst face"));
 }
 
+TEST(ReportTest, TellsWhereThereAreNoCreasesToCompare) {
+    Comparison comparison;
+    comparison.creases.source_creases = 1;
+    EXPECT_TRUE(has(report(comparison, true), "creases           none is kept\n"));
+    comparison.creases.source_creases = 0;
+    EXPECT_FALSE(has(report(comparison, true), "creases  "));
+}
+
 TEST(ReportTest, NamesWhatIsWrongWithAnOpenMesh) {
     TriangleMesh open = test::cube();
     open.faces.pop_back();

@@ -77,5 +77,18 @@ TEST(SharpEdgesTest, ThresholdDecides) {
     EXPECT_TRUE(find_sharp_edges(test::cube(), face_normals(test::cube()), {180, 10}).empty());
 }
 
+TEST(SharpEdgesTest, BoundaryEdgesAreSharp) {
+    TriangleMesh mesh = test::icosphere(2);
+    const Triangle gone = mesh.faces.back();
+    mesh.faces.pop_back();
+    const std::vector<SharpEdge> edges = find_sharp_edges(mesh, face_normals(mesh), {60, 7});
+    ASSERT_EQ(edges.size(), 3U);
+    for (const SharpEdge& edge : edges) {
+        EXPECT_EQ(edge.weight, 7);
+        EXPECT_NE(std::find(gone.begin(), gone.end(), edge.a), gone.end());
+        EXPECT_NE(std::find(gone.begin(), gone.end(), edge.b), gone.end());
+    }
+}
+
 }  // namespace
 }  // namespace vsplit
