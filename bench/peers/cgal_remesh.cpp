@@ -1,12 +1,12 @@
-/// CGAL's isotropic_remeshing as its users run it, a program of its own: CGAL is under the GPL, so nothing of vsplit is linked here
-/// and nothing of this is linked into vsplit. Meshes go in and out as OFF files.
+/// CGAL's isotropic_remeshing as its users run it, a program of its own: CGAL is under the GPL, so nothing of vsplit is linked
+/// here and nothing of this is linked into vsplit. Meshes go in and out as OFF files.
 ///
 ///     peer_cgal_remesh IN.off OUT.off --faces N [--iterations 5] [--angle 40] [--protect 1] [--seconds 60]
 ///
-/// Edges sharper than the angle (degrees) and boundary edges are constraints. With --protect 1 they are split to the target length
-/// first and then left alone (the manual's way to keep creases exactly); with 0 they may be split and collapsed along themselves.
-/// The target length is searched until the result has N faces within 2 %, for --seconds of CPU at most; the nearest run is written.
-/// Prints one line of JSON: faces, edge_length, runs, and seconds, the CPU time of the run that was written.
+/// Edges sharper than the angle (degrees) and boundary edges are constraints. With --protect 1 they are split to the target
+/// length first and then left alone (the manual's way to keep creases exactly); with 0 they may be split and collapsed along
+/// themselves. The target length is searched until the result has N faces within 2 %, for --seconds of CPU at most; the nearest
+/// run is written. Prints one line of JSON: faces, edge_length, runs, and seconds, the CPU time of the run that was written.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
@@ -15,6 +15,7 @@
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh/IO/OFF.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -36,13 +37,13 @@ using EdgeMark = Mesh::Property_map<Mesh::Edge_index, bool>;
 struct Options {
     std::string in;
     std::string out;
-    double faces = 0;        ///< faces asked for, >= 4
-    int iterations = 5;      ///< of isotropic_remeshing, >= 1
-    double angle = 40;       ///< degrees, 0 to 180; sharper edges are constraints
-    bool protect = true;     ///< constraints are left alone once they are split to length
-    double seconds = 60;     ///< CPU seconds after which the search starts no further run
-    double within = 0.02;    ///< share of `faces` the result may be off
-    int runs = 8;            ///< most runs of the search
+    double faces = 0;      ///< faces asked for, >= 4
+    int iterations = 5;    ///< of isotropic_remeshing, >= 1
+    double angle = 40;     ///< degrees, 0 to 180; sharper edges are constraints
+    bool protect = true;   ///< constraints are left alone once they are split to length
+    double seconds = 60;   ///< CPU seconds after which the search starts no further run
+    double within = 0.02;  ///< share of `faces` the result may be off
+    int runs = 8;          ///< most runs of the search
 };
 
 struct Run {
@@ -159,8 +160,9 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
     const std::optional<Options> options = parse({argv + 1, argv + argc});
     if (!options) {
-        std::fputs("usage: peer_cgal_remesh IN.off OUT.off --faces N [--iterations 5] [--angle 40] [--protect 1] [--seconds 60]\n",
-                   stderr);
+        std::fputs(
+            "usage: peer_cgal_remesh IN.off OUT.off --faces N [--iterations 5] [--angle 40] [--protect 1] [--seconds 60]\n",
+            stderr);
         return 1;
     }
     try {

@@ -44,9 +44,9 @@ public:
         if (!triangles_.empty()) build(0, static_cast<std::uint32_t>(triangles_.size()));
     }
 
-    [[nodiscard]] double nearest(const Vec3& p) const {
+    [[nodiscard]] double nearest(const Vec3& p, double enough) const {
         double best = std::numeric_limits<double>::infinity();
-        if (!nodes_.empty()) visit(0, p, best);
+        if (!nodes_.empty()) visit(0, p, enough * enough, best);
         return std::sqrt(best);
     }
 
@@ -92,9 +92,9 @@ private:
         return index;
     }
 
-    void visit(std::uint32_t index, const Vec3& p, double& best) const {
+    void visit(std::uint32_t index, const Vec3& p, double enough, double& best) const {
         const Node& node = nodes_[index];
-        if (node.squared_distance(p) >= best) return;
+        if (best <= enough || node.squared_distance(p) >= best) return;
         if (node.right == 0) {
             for (std::uint32_t i = node.first; i < node.last; ++i) best = std::min(best, squared_distance(p, triangles_[i]));
             return;
@@ -102,8 +102,8 @@ private:
         std::uint32_t near = index + 1;
         std::uint32_t far = node.right;
         if (nodes_[far].squared_distance(p) < nodes_[near].squared_distance(p)) std::swap(near, far);
-        visit(near, p, best);
-        visit(far, p, best);
+        visit(near, p, enough, best);
+        visit(far, p, enough, best);
     }
 
     std::vector<Corners> triangles_;
@@ -126,6 +126,6 @@ Distance::Distance(const std::vector<Segment>& segments) {
 
 Distance::~Distance() = default;
 
-double Distance::distance(const Vec3& point) const { return tree_->nearest(point); }
+double Distance::distance(const Vec3& point, double enough) const { return tree_->nearest(point, enough); }
 
 }  // namespace vsplit::bench

@@ -19,8 +19,9 @@ public:
     Distance(const Distance&) = delete;
     Distance& operator=(const Distance&) = delete;
 
-    /// Infinite when there is nothing to be near to.
-    [[nodiscard]] double distance(const Vec3& point) const;
+    /// Infinite when there is nothing to be near to. The search ends at the first thing within `enough`, so that a distance up to
+    /// `enough` may be given too large, but never beyond `enough`.
+    [[nodiscard]] double distance(const Vec3& point, double enough = 0) const;
 
 private:
     class Tree;

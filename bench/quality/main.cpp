@@ -20,6 +20,8 @@ int fail(const std::string& message) {
     return 1;
 }
 
+std::string json(const std::optional<double>& value) { return value ? std::to_string(*value) : "null"; }
+
 int convert(const std::string& from, const std::string& to, double weld) {
     const auto source = vsplit::read_mesh_file(from, {.weld = weld});
     if (!source) return fail(from + ": " + source.error().message);
@@ -40,10 +42,10 @@ int measure(const std::string& result_path, const std::string& source_path, doub
     std::printf("{\"faces\": %u, \"min\": %.6g, \"p01\": %.6g, \"mean\": %.6g, \"below_02_percent\": %.6g, \"valence_max\": %u, ",
                 f.quality.faces, f.quality.stretch_min, f.quality.stretch_p01, f.quality.stretch_mean,
                 100.0 * f.quality.faces_below_02 / f.quality.faces, f.quality.valence_max);
-    std::printf("\"deviation_percent\": %.6g, \"crease_lost_percent\": %s, \"folds\": %zu, ", f.deviation,
-                f.crease_lost ? std::to_string(*f.crease_lost).c_str() : "null", f.folds);
-    std::printf("\"self_intersections\": %zu, \"source_self_intersections\": %zu, \"border_edges\": %zu}\n",
-                f.self_intersections, f.source_self_intersections, f.border_edges);
+    std::printf("\"deviation_percent\": %.6g, \"crease_lost_percent\": %s, \"crease_gone_percent\": %s, \"folds\": %zu, ",
+                f.deviation, json(f.crease_lost).c_str(), json(f.crease_gone).c_str(), f.folds);
+    std::printf("\"self_intersections\": %zu, \"source_self_intersections\": %zu, \"border_edges\": %zu}\n", f.self_intersections,
+                f.source_self_intersections, f.border_edges);
     return 0;
 }
 
@@ -58,6 +60,7 @@ int main(int argc, char** argv) {
     }
     if (words.size() == 3 && words[0] == "--convert") return convert(words[1], words[2], weld);
     if (words.size() == 2) return measure(words[0], words[1], weld);
-    return fail("usage: bench_quality_measure RESULT SOURCE [--weld T]\n"
-                "       bench_quality_measure --convert SOURCE OUT [--weld T]");
+    return fail(
+        "usage: bench_quality_measure RESULT SOURCE [--weld T]\n"
+        "       bench_quality_measure --convert SOURCE OUT [--weld T]");
 }

@@ -15,6 +15,9 @@ namespace {
 /// Degrees between normals of cosine -0.9.
 constexpr double kFoldAngle = 154.1581;
 
+/// Of the diagonal: a deviation that counts as none.
+constexpr double kNegligible = 1e-9;
+
 /// The i-th pair of the R2 sequence (Roberts 2018), which fills the unit square evenly.
 std::array<double, 2> spread(std::size_t i) {
     const double n = static_cast<double>(i) + 0.5;
@@ -70,10 +73,12 @@ std::vector<Vec3> sample_segments(const std::vector<Segment>& segments, std::siz
     return points;
 }
 
-double farthest(const std::vector<Vec3>& points, const Distance& from) {
-    double result = 0;
-    for (const Vec3& p : points) result = std::max(result, from.distance(p));
-    return result;
+/// The largest distance of any point; 0 where all are within `negligible`. A point nearer than the farthest so far needs no exact
+/// distance.
+double farthest(const std::vector<Vec3>& points, const Distance& from, double negligible) {
+    double result = negligible;
+    for (const Vec3& p : points) result = std::max(result, from.distance(p, result));
+    return result > negligible ? result : 0;
 }
 
 std::vector<Segment> creases(const TriangleMesh& mesh, double angle) {
@@ -83,12 +88,11 @@ std::vector<Segment> creases(const TriangleMesh& mesh, double angle) {
     return segments;
 }
 
-std::optional<double> crease_lost(const TriangleMesh& result, const TriangleMesh& source, double near,
-                                  const MeasureOptions& options) {
-    const std::vector<Vec3> points = sample_segments(creases(source, options.crease_angle), options.samples);
+/// % of the points further than `near` from the edges of `result` sharper than `angle`.
+std::optional<double> share_lost(const std::vector<Vec3>& points, const TriangleMesh& result, double angle, double near) {
     if (points.empty()) return std::nullopt;
-    const Distance kept(creases(result, options.crease_angle));
-    const auto lost = std::count_if(points.begin(), points.end(), [&](const Vec3& p) { return kept.distance(p) > near; });
+    const Distance kept(creases(result, angle));
+    const auto lost = std::count_if(points.begin(), points.end(), [&](const Vec3& p) { return kept.distance(p, near) > near; });
     return 100.0 * static_cast<double>(lost) / static_cast<double>(points.size());
 }
 
@@ -96,7 +100,7 @@ std::size_t count_folds(const TriangleMesh& result, const TriangleMesh& source, 
     const Distance excused(sharp_segments(source, kFoldAngle));
     const std::vector<Segment> folded = sharp_segments(result, kFoldAngle);
     return static_cast<std::size_t>(std::count_if(
-        folded.begin(), folded.end(), [&](const Segment& s) { return excused.distance((s[0] + s[1]) / 2) > near; }));
+        folded.begin(), folded.end(), [&](const Segment& s) { return excused.distance((s[0] + s[1]) / 2, near) > near; }));
 }
 
 }  // namespace
@@ -106,10 +110,13 @@ Figures measure(const TriangleMesh& result, const TriangleMesh& source, const Me
     const double near = options.near / 100 * diagonal;
     Figures figures;
     figures.quality = measure_quality(result);
-    const double away = farthest(sample_surface(result, options.samples), Distance(source));
-    const double back = farthest(sample_surface(source, options.samples), Distance(result));
+    const double negligible = kNegligible * diagonal;
+    const double away = farthest(sample_surface(result, options.samples), Distance(source), negligible);
+    const double back = farthest(sample_surface(source, options.samples), Distance(result), negligible);
     figures.deviation = 100 * std::max(away, back) / diagonal;
-    figures.crease_lost = crease_lost(result, source, near, options);
+    const std::vector<Vec3> on_creases = sample_segments(creases(source, options.crease_angle), options.samples);
+    figures.crease_lost = share_lost(on_creases, result, options.crease_angle, near);
+    figures.crease_gone = share_lost(on_creases, result, options.crease_angle / 2, near);
     figures.folds = count_folds(result, source, near);
     figures.self_intersections = count_self_intersections(result);
     figures.source_self_intersections = count_self_intersections(source);

@@ -14,12 +14,14 @@ struct MeasureOptions {
 };
 
 /// What the comparison with other remeshers is about.
+/// What has to do with creases is empty where the source has none.
 struct Figures {
     Quality quality;
-    double deviation = 0;                       ///< two-sided distance at samples and all vertices, % of the source's diagonal
-    std::optional<double> crease_lost;          ///< % of the source's creases further than `near` from any of the result; empty without creases
-    std::size_t folds = 0;                      ///< edges whose faces look opposite ways (cosine < -0.9), none such near in the source
-    std::size_t self_intersections = 0;         ///< see count_self_intersections
+    double deviation = 0;  ///< two-sided distance at samples and all vertices, % of the source's diagonal; 0 below 1e-7
+    std::optional<double> crease_lost;   ///< % of the source's creases further than `near` from any of the result
+    std::optional<double> crease_gone;   ///< the same, from any edge of the result of half the angle: not even a bend is left
+    std::size_t folds = 0;               ///< edges whose faces look opposite ways (cosine < -0.9), none such near in the source
+    std::size_t self_intersections = 0;  ///< see count_self_intersections
     std::size_t source_self_intersections = 0;  ///< of the source
     std::size_t border_edges = 0;               ///< edges without exactly two faces
 };

@@ -35,9 +35,7 @@ TEST(DistanceTest, OfSegmentsIsTheLeastOfEach) {
     EXPECT_DOUBLE_EQ(two.distance({3, 0, 0.25}), 0.25);
 }
 
-TEST(DistanceTest, OfNothingIsInfinite) {
-    EXPECT_TRUE(std::isinf(Distance(std::vector<Segment>{}).distance(Vec3::Zero())));
-}
+TEST(DistanceTest, OfNothingIsInfinite) { EXPECT_TRUE(std::isinf(Distance(std::vector<Segment>{}).distance(Vec3::Zero()))); }
 
 }  // namespace
 }  // namespace vsplit::bench

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/core/meshes.h"
 
@@ -38,7 +39,23 @@ TEST(MeasureTest, ThereIsNoCreaseToLoseOnASphere) {
 }
 
 TEST(MeasureTest, ASphereHasLostTheCreasesOfACube) {
-    EXPECT_EQ(measure(test::icosphere(2), test::cube(), kQuick).crease_lost, 100);
+    const Figures f = measure(test::icosphere(2), test::cube(), kQuick);
+    EXPECT_EQ(f.crease_lost, 100);
+    EXPECT_EQ(f.crease_gone, 100);
+}
+
+TEST(MeasureTest, ABluntedCreaseIsLostButNotGone) {
+    // A roof of 44 degrees, then of 36: the ridge is where it was.
+    const auto roof = [](double degrees) {
+        const double z = std::tan(degrees / 2 * std::numbers::pi / 180);
+        TriangleMesh mesh;
+        mesh.positions = {{0, -1, 0}, {0, 1, 0}, {-1, 0, -z}, {1, 0, -z}};
+        mesh.faces = {{0, 1, 2}, {1, 0, 3}};
+        return mesh;
+    };
+    const Figures f = measure(roof(36), roof(44), kQuick);
+    const double ridge = 2 / (2 + 4 * std::sqrt(2 + std::pow(std::tan(22 * std::numbers::pi / 180), 2)));
+    EXPECT_LT(*f.crease_gone, *f.crease_lost - 0.9 * 100 * ridge);
 }
 
 TEST(MeasureTest, CountsAFoldUnlessTheSourceHasItToo) {

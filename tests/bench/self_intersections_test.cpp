@@ -14,8 +14,8 @@ TEST(SelfIntersectionsTest, ThereAreNoneInGoodMeshes) {
 TEST(SelfIntersectionsTest, CountsThePairsWhereOneTriangleCutsAnother) {
     // One upright triangle through the first of two flat ones, clear of the second.
     TriangleMesh mesh;
-    mesh.positions = {{0, 0, 0},        {1, 0, 0},       {0, 1, 0},      {5, 0, 0},       {6, 0, 0},
-                      {5, 1, 0},        {0.2, 0.2, -1},  {0.3, 0.2, 1},  {0.2, 0.3, 1}};
+    mesh.positions = {{0, 0, 0}, {1, 0, 0},      {0, 1, 0},     {5, 0, 0},    {6, 0, 0},
+                      {5, 1, 0}, {0.2, 0.2, -1}, {0.3, 0.2, 1}, {0.2, 0.3, 1}};
     mesh.faces = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
     EXPECT_EQ(count_self_intersections(mesh), 1);
     mesh.faces = {{0, 1, 2}, {3, 4, 5}, {0, 7, 8}};
