@@ -1,0 +1,90 @@
+#include "quality/self_intersections.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace vsplit::bench {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+struct Face {
+    Triangle vertices{};
+    Corners corners;
+    Vec3 min;
+    Vec3 max;
+};
+
+/// The side of the plane (a, b, c) that d is on: 1, -1, or 0 where rounding could decide. The bound is that of the first stage of
+/// orient3d in Shewchuk, Adaptive Precision Floating-Point Arithmetic (1997).
+int side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const Vec3 ad = a - d;
+    const Vec3 bd = b - d;
+    const Vec3 cd = c - d;
+    double determinant = 0;
+    double permanent = 0;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        const double left = bd[i] * cd[j];
+        const double right = bd[j] * cd[i];
+        const double third = ad[3 - i - j];
+        determinant += third * (left - right);
+        permanent += std::abs(third) * (std::abs(left) + std::abs(right));
+    }
+    constexpr double kBound = 8e-16;
+    if (std::abs(determinant) <= kBound * permanent) return 0;
+    return determinant > 0 ? 1 : -1;
+}
+
+bool passes_through(const Vec3& p, const Vec3& q, const Corners& t) {
+    if (side(t[0], t[1], t[2], p) * side(t[0], t[1], t[2], q) != -1) return false;
+    const int first = side(p, q, t[0], t[1]);
+    return first != 0 && side(p, q, t[1], t[2]) == first && side(p, q, t[2], t[0]) == first;
+}
+
+bool an_edge_passes_through(const Corners& edges_of, const Corners& other) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (passes_through(edges_of[i], edges_of[(i + 1) % 3], other)) return true;
+    }
+    return false;
+}
+
+bool share_a_vertex(const Triangle& s, const Triangle& t) {
+    return std::any_of(s.begin(), s.end(), [&](std::uint32_t v) { return std::find(t.begin(), t.end(), v) != t.end(); });
+}
+
+bool intersect(const Face& s, const Face& t) {
+    if ((s.min.array() > t.max.array()).any() || (t.min.array() > s.max.array()).any()) return false;
+    if (share_a_vertex(s.vertices, t.vertices)) return false;
+    return an_edge_passes_through(s.corners, t.corners) || an_edge_passes_through(t.corners, s.corners);
+}
+
+std::vector<Face> faces_along(const TriangleMesh& mesh, int axis) {
+    std::vector<Face> faces;
+    for (const Triangle& t : mesh.faces) {
+        const Corners c{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+        faces.push_back({t, c, c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2])});
+    }
+    std::stable_sort(faces.begin(), faces.end(), [axis](const Face& l, const Face& r) { return l.min[axis] < r.min[axis]; });
+    return faces;
+}
+
+}  // namespace
+
+std::size_t count_self_intersections(const TriangleMesh& mesh) {
+    int axis = 0;
+    const BoundingBox box = bounding_box(mesh);
+    (box.max - box.min).maxCoeff(&axis);
+    const std::vector<Face> faces = faces_along(mesh, axis);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        for (std::size_t j = i + 1; j < faces.size() && faces[j].min[axis] <= faces[i].max[axis]; ++j) {
+            count += intersect(faces[i], faces[j]) ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+}  // namespace vsplit::bench
