@@ -12,6 +12,7 @@ std::vector<SharpEdge> find_sharp_edges(const TriangleMesh& mesh, const FaceNorm
     const std::vector<HalfEdge> twins = half_edge_twins(mesh);
     std::vector<SharpEdge> edges;
     for (HalfEdge h = 0; h < twins.size(); ++h) {
+        if (twins[h] == kNone) edges.push_back({origin(mesh, h), origin(mesh, next(h)), options.weight});
         if (twins[h] == kNone || twins[h] < h) continue;
         const double cosine = normals.normals[face_of(h)].dot(normals.normals[face_of(twins[h])]);
         if (cosine < threshold) edges.push_back({origin(mesh, h), origin(mesh, next(h)), options.weight * (1 - cosine)});

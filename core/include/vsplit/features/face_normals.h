@@ -14,7 +14,7 @@ struct FaceNormals {
     std::vector<bool> reliable;  ///< false where the normal was borrowed
 };
 
-/// \pre `mesh` is manifold and closed. O(faces).
+/// \pre `mesh` is manifold. O(faces).
 [[nodiscard]] FaceNormals face_normals(const TriangleMesh& mesh);
 
 }  // namespace vsplit

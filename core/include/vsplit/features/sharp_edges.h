@@ -20,8 +20,8 @@ struct SharpEdgeOptions {
     double weight = 10;  ///< weight of an edge whose faces meet at a right angle; others weigh weight * (1 - cos of the angle)
 };
 
-/// Sharp edges by dihedral angle ([Date05] 3.1), in order of their first half-edge. O(faces).
-/// \pre `mesh` is manifold and closed; `normals` belong to it.
+/// Sharp edges by dihedral angle ([Date05] 3.1) and edges with one face, in order of their first half-edge. O(faces).
+/// \pre `mesh` is manifold; `normals` belong to it.
 [[nodiscard]] std::vector<SharpEdge> find_sharp_edges(const TriangleMesh& mesh, const FaceNormals& normals,
                                                       const SharpEdgeOptions& options);
 
