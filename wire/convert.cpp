@@ -173,8 +173,7 @@ Expected<std::optional<FeatureDetection>> from_proto(v1::FeatureDetection detect
         case v1::NORMAL_VOTING:
             return std::optional(FeatureDetection::kNormalVoting);
         default:
-            return unknown_number("feature_detection", detection,
-                                  "FEATURE_DETECTION_UNSPECIFIED, DIHEDRAL or NORMAL_VOTING");
+            return unknown_number("feature_detection", detection, "FEATURE_DETECTION_UNSPECIFIED, DIHEDRAL or NORMAL_VOTING");
     }
 }
 

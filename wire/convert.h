@@ -55,7 +55,8 @@ namespace vsplit::wire {
 [[nodiscard]] v1::ImproveOptions to_proto(const ImproveOptions& options);
 [[nodiscard]] v1::ControlOptions to_proto(const ControlOptions& options);
 
-/// Fields that are absent stay empty; ranges are for check_options. \return INVALID_OPTION for a mode or a detection that is none.
+/// Fields that are absent stay empty; ranges are for check_options. \return INVALID_OPTION for a mode or a detection that is
+/// none.
 [[nodiscard]] Expected<ImproveOptions> from_proto(const v1::ImproveOptions& options);
 [[nodiscard]] Expected<ControlOptions> from_proto(const v1::ControlOptions& options);
 

@@ -117,9 +117,9 @@ std::vector<double> numbers_in(const std::string& text, std::size_t count) {
 void add_shape(CLI::App& verb, const std::string& name, const char* form, std::size_t count,
                const std::function<void(const std::vector<double>&)>& take, const std::string& about) {
     const auto check = [form, count](const std::string& text) {
-        return numbers_in(text, count).empty() ? "'" + text + "' is given; accepted is " + form + ", " + std::to_string(count) +
-                                                     " numbers without blanks"
-                                               : std::string();
+        return numbers_in(text, count).empty()
+                   ? "'" + text + "' is given; accepted is " + form + ", " + std::to_string(count) + " numbers without blanks"
+                   : std::string();
     };
     const auto convert = [take, count](const std::vector<std::string>& texts) {
         for (const std::string& text : texts) take(numbers_in(text, count));
@@ -134,10 +134,7 @@ void add_shape(CLI::App& verb, const std::string& name, const char* form, std::s
 }
 
 void add_size(CLI::App& verb, const std::string& name, const std::string& about, const std::function<void(double)>& take) {
-    verb.add_option_function<double>(name, take, about)
-        ->check(real_number())
-        ->type_name("S")
-        ->group(kSizingGroup);
+    verb.add_option_function<double>(name, take, about)->check(real_number())->type_name("S")->group(kSizingGroup);
 }
 
 template <class Options>

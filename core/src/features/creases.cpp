@@ -30,7 +30,8 @@ Status check_marks(const TriangleMesh& mesh, const std::vector<std::uint32_t>& m
     for (std::size_t i = 0; i < marks.size(); i += 2) {
         const Edge given{marks[i], marks[i + 1]};
         if (std::max(given.first, given.second) >= mesh.vertex_count()) {
-            return wrong_edge(i / 2, "is " + named(given) + "; accepted are vertices below " + std::to_string(mesh.vertex_count()));
+            return wrong_edge(i / 2,
+                              "is " + named(given) + "; accepted are vertices below " + std::to_string(mesh.vertex_count()));
         }
         wanted.emplace_back(std::minmax(given.first, given.second), i / 2);
     }
@@ -124,8 +125,7 @@ std::vector<SharpEdge> creases_on(const SubdividedMesh& fine, const TriangleMesh
         const std::uint32_t parent = fine.parent[face_of(h)];
         const std::uint32_t beyond = twin == kNone ? kNone : fine.parent[face_of(twin)];
         if (parent == beyond) continue;
-        const Vec3 middle =
-            (fine.mesh.positions[origin(fine.mesh, h)] + fine.mesh.positions[origin(fine.mesh, next(h))]) / 2;
+        const Vec3 middle = (fine.mesh.positions[origin(fine.mesh, h)] + fine.mesh.positions[origin(fine.mesh, next(h))]) / 2;
         const HalfEdge side = side_of_parent(source, coarse, parent, beyond, middle);
         if (side != kNone && coarse.marked(side)) marks.mark(h, coarse.weight(side));
     }

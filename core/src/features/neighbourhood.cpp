@@ -13,8 +13,7 @@ bool farther(const EdgePaths::Reached& left, const EdgePaths::Reached& right) {
 
 }  // namespace
 
-VertexCorners::VertexCorners(const TriangleMesh& mesh)
-    : first_(mesh.positions.size() + 1, 0), corners_(mesh.faces.size() * 3) {
+VertexCorners::VertexCorners(const TriangleMesh& mesh) : first_(mesh.positions.size() + 1, 0), corners_(mesh.faces.size() * 3) {
     for (HalfEdge h = 0; h < corners_.size(); ++h) ++first_[origin(mesh, h) + 1];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     std::vector<std::uint32_t> slot(first_.begin(), first_.end() - 1);

@@ -35,9 +35,9 @@ private:
     void join(std::uint32_t a, std::uint32_t b) {
         a = leader(a);
         b = leader(b);
-        const auto [first, second] = std::minmax(a, b);
+        const std::uint32_t first = std::min(a, b);
         loops_[first] = a == b || loops_[a] || loops_[b];
-        leader_[second] = first;
+        leader_[std::max(a, b)] = first;
     }
 
     std::vector<std::uint32_t> leader_;

@@ -136,8 +136,7 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
 
     Expected<SubdividedMesh> subdivided = subdivide(mesh, used, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    SimplifyInput input =
-        prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min});
+    SimplifyInput input = prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min});
     Expected<MultiresMesh> mrr = simplify(std::move(input), policy_of(used, bounding_box(mesh).diagonal()), context);
     if (!mrr) return mrr.error();
     MethodResult result = describe_resolution(std::move(*mrr), *used.faces);

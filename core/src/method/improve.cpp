@@ -65,8 +65,7 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
 
     Expected<SubdividedMesh> subdivided = subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    SimplifyInput input =
-        prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min});
+    SimplifyInput input = prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min});
     Expected<MultiresMesh> mrr = simplify(std::move(input), ImprovePolicy{}, context);
     if (!mrr) return mrr.error();
     if (!options.faces) used.faces = std::max(*used.faces, kFacesOverCoarsest * mrr->faces_min());

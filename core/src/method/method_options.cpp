@@ -79,9 +79,8 @@ Status check_on(const TriangleMesh& source, const Options& options) {
 
 template <class Options>
 FeatureOptions features_of(const Options& options) {
-    return {options.feature_detection.value_or(FeatureDetection::kDihedral),
-            options.feature_angle.value_or(kDefaultFeatureAngle), options.feature_weight.value_or(kDefaultFeatureWeight),
-            options.marked_edges, options.regions};
+    return {options.feature_detection.value_or(FeatureDetection::kDihedral), options.feature_angle.value_or(kDefaultFeatureAngle),
+            options.feature_weight.value_or(kDefaultFeatureWeight), options.marked_edges, options.regions};
 }
 
 }  // namespace

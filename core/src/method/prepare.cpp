@@ -49,8 +49,7 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
     FaceNormals normals = inherit(source_normals, subdivided.parent);
     SimplifyInput input;
     input.centre = (box.min + box.max) / 2;
-    const std::vector<SharpEdge> creases =
-        creases_on(subdivided, source, find_creases(source, source_normals, options.features));
+    const std::vector<SharpEdge> creases = creases_on(subdivided, source, find_creases(source, source_normals, options.features));
     input.quadrics = vertex_quadrics(subdivided.mesh, normals, creases, input.centre);
     input.mesh = std::move(subdivided.mesh);
     input.normals = std::move(normals.normals);

@@ -28,8 +28,9 @@ public:
 
 private:
     void join(HalfEdge a, HalfEdge b) {
-        const auto [first, second] = std::minmax(of(a), of(b));
-        leader_[second] = first;
+        a = of(a);
+        b = of(b);
+        leader_[std::max(a, b)] = std::min(a, b);
     }
 
     std::vector<HalfEdge> leader_;

@@ -41,13 +41,15 @@ auto point_of(const TriangleMesh& mesh, const FieldSize& rule) {
     return [&mesh, &rule](std::uint32_t v) { return rule.point(mesh.positions[v], rule.field.vertex_sizes()[v]); };
 }
 
-std::uint64_t predict_with(const TriangleMesh& mesh, const FieldSize& rule, std::uint64_t limit) {
-    return count_pieces(mesh, rule, point_of(mesh, rule), limit);
+std::uint64_t predict_with(const TriangleMesh& mesh, const FieldSize& rule, std::uint64_t limit,
+                           const ExecutionContext* context) {
+    return count_pieces(mesh, rule, point_of(mesh, rule), limit, context);
 }
 
-double fitting_min_size(const TriangleMesh& mesh, const SizeField& field, std::uint64_t limit) {
-    return fitting_length(bounding_box(mesh).diagonal(), limit,
-                          [&](double least) { return predict_with(mesh, {field, least}, limit); });
+double fitting_min_size(const TriangleMesh& mesh, const SizeField& field, std::uint64_t limit, const ExecutionContext& context) {
+    return fitting_length(bounding_box(mesh).diagonal(), limit, [&](double least) {
+        return predict_with(mesh, {field, least}, limit, &context);
+    });
 }
 
 /// Shares of the corners of a face in a point of it, by least squares; from 0, sum 1. A face without area counts as its longest
@@ -182,7 +184,7 @@ std::vector<double> graded_sizes(const TriangleMesh& mesh, std::vector<double> s
 }
 
 std::uint64_t predict_subdivision(const TriangleMesh& mesh, const SizeField& field, std::uint64_t limit) {
-    return predict_with(mesh, {field, 0}, limit);
+    return predict_with(mesh, {field, 0}, limit, nullptr);
 }
 
 Expected<SubdividedMesh> subdivide_to_sizes(const TriangleMesh& mesh, const SizeField& field, std::uint32_t face_limit,
@@ -193,12 +195,13 @@ Expected<SubdividedMesh> subdivide_to_sizes(const TriangleMesh& mesh, const Size
                      "sizing"};
     }
     const FieldSize rule{field, 0};
-    const std::uint64_t predicted = predict_with(mesh, rule, face_limit);
+    const std::uint64_t predicted = predict_with(mesh, rule, face_limit, &context);
     if (predicted > face_limit) {
+        const double fitting = fitting_min_size(mesh, field, face_limit, context);
+        if (context.cancelled()) return ExecutionContext::cancelled_error();
         return Error{Cause::kLimitExceeded,
                      "subdividing to these sizes makes more than " + std::to_string(face_limit) +
-                         " faces, the limit; with no size under " + number_text(fitting_min_size(mesh, field, face_limit)) +
-                         " (min_size) it fits",
+                         " faces, the limit; with no size under " + number_text(fitting) + " (min_size) it fits",
                      "sizing"};
     }
     return subdivide_by(mesh, rule, point_of(mesh, rule), predicted, context);

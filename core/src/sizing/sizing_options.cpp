@@ -21,9 +21,7 @@ std::string nth(const std::string& field, std::size_t index, const char* member)
     return field + "[" + std::to_string(index) + "]" + member;
 }
 
-std::string text(const Vec3& p) {
-    return "(" + number_text(p.x()) + ", " + number_text(p.y()) + ", " + number_text(p.z()) + ")";
-}
+std::string text(const Vec3& p) { return "(" + number_text(p.x()) + ", " + number_text(p.y()) + ", " + number_text(p.z()) + ")"; }
 
 Status check_point(const Vec3& point, const std::string& field, const std::string& what) {
     if (is_valid_position(point)) return Done{};
@@ -52,7 +50,8 @@ Status check_boxes(const std::vector<SizeBox>& boxes) {
         if (Status s = check_point(boxes[i].min, field, nth(field, i, ".min")); !s) return s;
         if (Status s = check_point(boxes[i].max, field, nth(field, i, ".max")); !s) return s;
         if ((boxes[i].max - boxes[i].min).minCoeff() < 0) {
-            return invalid(field, nth(field, i, ".max"), text(boxes[i].max), "nowhere less than min, which is " + text(boxes[i].min));
+            return invalid(field, nth(field, i, ".max"), text(boxes[i].max),
+                           "nowhere less than min, which is " + text(boxes[i].min));
         }
         if (Status s = check_size(boxes[i].size, field, nth(field, i, ".size")); !s) return s;
     }
@@ -81,6 +80,11 @@ Status check_order(const std::optional<double>& min_size, const std::optional<do
 }  // namespace
 
 Status check_sizing(const SizingOptions& options, std::optional<double> max_size) {
+    if (options.spheres.size() + options.boxes.size() > kMostShapes) {
+        return invalid("sizing.spheres", "the number of spheres and boxes",
+                       std::to_string(options.spheres.size() + options.boxes.size()),
+                       "at most " + std::to_string(kMostShapes) + "; sizes of more places go into a field");
+    }
     if (Status s = check_spheres(options.spheres); !s) return s;
     if (Status s = check_boxes(options.boxes); !s) return s;
     if (Status s = check_length(options.chord_error, "sizing.chord_error"); !s) return s;

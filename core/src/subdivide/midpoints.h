@@ -57,9 +57,10 @@ public:
     using Point = typename Rule::Point;
     using Face = std::array<Point, 3>;
 
-    PieceCounter(const Rule& rule, std::uint64_t limit) : rule_(rule), limit_(limit) {}
+    PieceCounter(const Rule& rule, std::uint64_t limit, const ExecutionContext* context)
+        : rule_(rule), limit_(limit), context_(context) {}
 
-    /// More than the limit in all.
+    /// More than the limit in all, or cancelled.
     [[nodiscard]] bool over() const { return pieces_ > limit_; }
     [[nodiscard]] std::uint64_t pieces() const { return pieces_; }
 
@@ -69,6 +70,7 @@ public:
             const Face f = open_.back();
             open_.pop_back();
             cut(f);
+            if (++cuts_ % 4096 == 0 && context_ != nullptr && context_->cancelled()) pieces_ = limit_ + 1;
         }
         pieces_ += open_.size();
         open_.clear();
@@ -93,14 +95,18 @@ private:
 
     const Rule& rule_;
     std::uint64_t limit_;
+    const ExecutionContext* context_;
     std::uint64_t pieces_ = 0;
+    std::uint64_t cuts_ = 0;
     std::vector<Face> open_;
 };
 
-/// Faces that `rule` makes of those of `mesh`, or `limit` + 1 when they are more. `point(v)` is what the rule knows of a vertex.
+/// Faces that `rule` makes of those of `mesh`, or `limit` + 1 when they are more, or when `context` is cancelled.
+/// `point(v)` is what the rule knows of a vertex.
 template <class Rule, class PointOf>
-std::uint64_t count_pieces(const TriangleMesh& mesh, const Rule& rule, const PointOf& point, std::uint64_t limit) {
-    PieceCounter<Rule> counter(rule, limit);
+std::uint64_t count_pieces(const TriangleMesh& mesh, const Rule& rule, const PointOf& point, std::uint64_t limit,
+                           const ExecutionContext* context = nullptr) {
+    PieceCounter<Rule> counter(rule, limit, context);
     for (const Triangle& t : mesh.faces) {
         counter.add({point(t[0]), point(t[1]), point(t[2])});
         if (counter.over()) return limit + 1;
@@ -160,7 +166,8 @@ bool subdivide_round(Subdivision<Rule>& current, const Rule& rule) {
     auto& points = current.points;
     EdgeIndex(current.faces, points.size()).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
         if (!rule.wants(points[first->a()], points[first->b()])) return;
-        for (const auto* entry = first; entry != last; ++entry) midpoints[entry->half_edge] = static_cast<std::uint32_t>(points.size());
+        for (const auto* entry = first; entry != last; ++entry)
+            midpoints[entry->half_edge] = static_cast<std::uint32_t>(points.size());
         points.push_back(rule.midpoint(points[first->a()], points[first->b()]));
         ++marked;
     });

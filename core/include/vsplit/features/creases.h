@@ -26,15 +26,15 @@ struct FeatureOptions {
 [[nodiscard]] Status check_features(const TriangleMesh& mesh, const std::vector<std::uint32_t>& marked_edges,
                                     const std::vector<std::uint32_t>& regions);
 
-/// Creases of `mesh`, each edge once, in order of their first half-edge: edges that the detection finds sharp, marked edges, borders of
-/// regions, and edges with one face. NORMAL_VOTING weighs an edge by the angle between the voted normals, and leaves out chains
-/// shorter than a neighbourhood, which noise makes. O(faces) for DIHEDRAL, see `vote_normals` for NORMAL_VOTING.
-/// \pre `mesh` is manifold; `normals` belong to it; `check_features` found nothing.
+/// Creases of `mesh`, each edge once, in order of their first half-edge: edges that the detection finds sharp, marked edges,
+/// borders of regions, and edges with one face. NORMAL_VOTING weighs an edge by the angle between the voted normals, and leaves
+/// out chains shorter than a neighbourhood, which noise makes. O(faces) for DIHEDRAL, see `vote_normals` for NORMAL_VOTING. \pre
+/// `mesh` is manifold; `normals` belong to it; `check_features` found nothing.
 [[nodiscard]] std::vector<SharpEdge> find_creases(const TriangleMesh& mesh, const FaceNormals& normals,
                                                   const FeatureOptions& options);
 
-/// The pieces of the source's `creases` in a subdivision of it, in order of their first half-edge, with the weights they had. O(faces).
-/// \pre `fine.parent` names faces of `source`, and `fine` covers the same surface.
+/// The pieces of the source's `creases` in a subdivision of it, in order of their first half-edge, with the weights they had.
+/// O(faces). \pre `fine.parent` names faces of `source`, and `fine` covers the same surface.
 [[nodiscard]] std::vector<SharpEdge> creases_on(const SubdividedMesh& fine, const TriangleMesh& source,
                                                 const std::vector<SharpEdge>& creases);
 

@@ -35,24 +35,25 @@ struct ImproveOptions {
     std::optional<std::uint32_t> faces_min{};  ///< simplify down to this many faces, or until no edge is valid; default 4
     std::optional<Mode> mode{};                ///< default STRICT
     std::optional<FeatureDetection> feature_detection{};  ///< how creases are found; default DIHEDRAL
-    std::vector<std::uint32_t> marked_edges{};            ///< edges to keep as creases, as pairs of vertices of the source; default none
-    std::vector<std::uint32_t> regions{};                 ///< an id a face of the source; borders between ids are creases. Default none
-    std::optional<SizingOptions> sizing{};                ///< edges as long as a place on the surface allows; comes with the extended mode (UNSUPPORTED now)
+    std::vector<std::uint32_t> marked_edges{};  ///< edges to keep as creases, as pairs of vertices of the source; default none
+    std::vector<std::uint32_t> regions{};       ///< an id a face of the source; borders between ids are creases. Default none
+    std::optional<SizingOptions>
+        sizing{};  ///< edges as long as a place on the surface allows; comes with the extended mode (UNSUPPORTED now)
 };
 
 /// What `control` may be asked for. Lengths in model units.
 struct ControlOptions {
-    std::optional<std::uint32_t> subdivisions{};  ///< one-to-four, 0..12 times; default 1
-    std::optional<double> tolerance{};            ///< as in ImproveOptions
-    std::optional<double> max_deviation{};        ///< as in ImproveOptions
-    std::optional<double> min_stretch{};          ///< tau_ST, 0..1; default 0.2
-    std::optional<double> max_size{};             ///< tau_SZ, > 0; default none
-    std::optional<std::uint32_t> max_valence{};   ///< tau_VL, >= 6; default none
-    std::optional<double> feature_angle{};        ///< as in ImproveOptions
-    std::optional<double> feature_weight{};       ///< as in ImproveOptions
-    std::optional<std::uint32_t> faces{};         ///< resolution of the result; default: as many as the source has
-    std::optional<std::uint32_t> faces_min{};     ///< as in ImproveOptions
-    std::optional<Mode> mode{};                   ///< default STRICT
+    std::optional<std::uint32_t> subdivisions{};          ///< one-to-four, 0..12 times; default 1
+    std::optional<double> tolerance{};                    ///< as in ImproveOptions
+    std::optional<double> max_deviation{};                ///< as in ImproveOptions
+    std::optional<double> min_stretch{};                  ///< tau_ST, 0..1; default 0.2
+    std::optional<double> max_size{};                     ///< tau_SZ, > 0; default none
+    std::optional<std::uint32_t> max_valence{};           ///< tau_VL, >= 6; default none
+    std::optional<double> feature_angle{};                ///< as in ImproveOptions
+    std::optional<double> feature_weight{};               ///< as in ImproveOptions
+    std::optional<std::uint32_t> faces{};                 ///< resolution of the result; default: as many as the source has
+    std::optional<std::uint32_t> faces_min{};             ///< as in ImproveOptions
+    std::optional<Mode> mode{};                           ///< default STRICT
     std::optional<FeatureDetection> feature_detection{};  ///< as in ImproveOptions
     std::vector<std::uint32_t> marked_edges{};            ///< as in ImproveOptions
     std::vector<std::uint32_t> regions{};                 ///< as in ImproveOptions

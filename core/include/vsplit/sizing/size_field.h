@@ -16,8 +16,8 @@ namespace vsplit {
 /// - sizes at the source's vertices (chord error, field, max_size, and the other part there), graded along edges, linear inside
 ///   faces;
 /// - spheres and boxes, evaluated at the point itself: their size inside, and `gradation` more per unit of distance through space
-///   outside. Through space is never farther than along the surface, so this part keeps the gradation on any mesh, and a face that
-///   holds a sphere no vertex is near still learns of it: at its corners, from afar.
+///   outside. Through space is never farther than along the surface, so this part keeps the gradation on any mesh, and a face
+///   that holds a sphere no vertex is near still learns of it: at its corners, from afar.
 class SizeField {
 public:
     /// One a vertex of the source, infinity where nothing bounds: the surface's sizes, everything counted.
@@ -47,8 +47,9 @@ private:
 /// inside the parent, the shapes at the point itself, graded along the edges of `fine`. Infinity where nothing bounds.
 ///
 /// Guaranteed, whatever the mesh: sizes at the ends of an edge differ by at most gradation * its length; none is over the size of
-/// a shape that holds its vertex, nor over the linear one; none is below min_size.
-/// \pre `fine.parent` names faces of `source`. O(faces log faces + vertices * (spheres + boxes)).
+/// a shape that holds its vertex, nor over the linear one; none is below min_size. In slivers the linear part may be steeper than
+/// the gradation; there sizes come out below what `subdivide_to_sizes` split to. \pre `fine.parent` names faces of `source`.
+/// O(faces log faces + vertices * (spheres + boxes)).
 [[nodiscard]] std::vector<double> sizes_on(const SubdividedMesh& fine, const TriangleMesh& source, const SizeField& field);
 
 /// Sizes brought down until they differ along each edge by at most gradation * its length; the largest such sizes there are.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace vsplit {
 inline constexpr double kDefaultGradation = 0.3;
 /// Sizes that grow faster than distance would let a large face pass over a small sphere in its middle unseen.
 inline constexpr double kLargestGradation = 1;
+
+/// Spheres and boxes together: each is evaluated at every vertex.
+inline constexpr std::size_t kMostShapes = 1000;
 
 /// No edge in the ball is longer than `size`.
 struct SizeSphere {
@@ -28,14 +32,15 @@ struct SizeBox {
 
 /// How long edges may be where on the surface: the least of everything given here. Lengths in model units.
 struct SizingOptions {
-    std::vector<SizeSphere> spheres{};
-    std::vector<SizeBox> boxes{};
+    std::vector<SizeSphere> spheres{};    ///< with the boxes at most kMostShapes; default none
+    std::vector<SizeBox> boxes{};         ///< default none
     std::optional<double> chord_error{};  ///< length, > 0: a chord of the size lies no further from a circle of the surface's
                                           ///< largest curvature, sqrt(8 r chord_error); default none
     std::vector<double> field{};          ///< one a vertex of the source, length, >= 0; 0 is no bound. Default none
-    double gradation = kDefaultGradation;  ///< > 0, at most 1: the size grows by at most this per unit of length along the surface
-    std::optional<double> min_size{};      ///< length, > 0: no size is less, whatever asks for it; default none
-    std::optional<double> max_size{};      ///< length, > 0, at least min_size; default none
+    double gradation =
+        kDefaultGradation;             ///< > 0, at most 1: the size grows by at most this per unit of length along the surface
+    std::optional<double> min_size{};  ///< length, > 0: no size is less, whatever asks for it; default none
+    std::optional<double> max_size{};  ///< length, > 0, at least min_size; default none
 };
 
 /// Ranges and contradictions. `max_size` is the method's own bound, if it has one, for the contradiction of min_size.
