@@ -31,6 +31,10 @@ void set_common(const Options& options, Proto& proto) {
     if (options.faces) proto.set_faces(*options.faces);
     if (options.faces_min) proto.set_faces_min(*options.faces_min);
     proto.set_mode(to_proto(options.mode));
+    proto.set_feature_detection(to_proto(options.feature_detection));
+    add_elements(options.marked_edges, *proto.mutable_marked_edges());
+    add_elements(options.regions, *proto.mutable_regions());
+    if (options.sizing) *proto.mutable_sizing() = to_proto(*options.sizing);
 }
 
 /// What both methods' options share, into core.
@@ -45,6 +49,12 @@ Status get_common(const Proto& proto, Options& options) {
     Expected<std::optional<Mode>> mode = from_proto(proto.mode());
     if (!mode) return mode.error();
     options.mode = *mode;
+    Expected<std::optional<FeatureDetection>> detection = from_proto(proto.feature_detection());
+    if (!detection) return detection.error();
+    options.feature_detection = *detection;
+    options.marked_edges.assign(proto.marked_edges().begin(), proto.marked_edges().end());
+    options.regions.assign(proto.regions().begin(), proto.regions().end());
+    if (proto.has_sizing()) options.sizing = from_proto(proto.sizing());
     return Done{};
 }
 
@@ -57,6 +67,8 @@ v1::Vector to_proto(const Vec3& point) {
     proto.set_z(point.z());
     return proto;
 }
+
+Vec3 from_proto(const v1::Vector& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
 v1::BoundingBox to_proto(const BoundingBox& box) {
     v1::BoundingBox proto;
@@ -145,6 +157,62 @@ Expected<std::optional<Mode>> from_proto(v1::Mode mode) {
         default:
             return unknown_number("mode", mode, "MODE_UNSPECIFIED, STRICT or EXTENDED");
     }
+}
+
+v1::FeatureDetection to_proto(std::optional<FeatureDetection> detection) {
+    if (!detection) return v1::FEATURE_DETECTION_UNSPECIFIED;
+    return *detection == FeatureDetection::kDihedral ? v1::DIHEDRAL : v1::NORMAL_VOTING;
+}
+
+Expected<std::optional<FeatureDetection>> from_proto(v1::FeatureDetection detection) {
+    switch (detection) {
+        case v1::FEATURE_DETECTION_UNSPECIFIED:
+            return std::optional<FeatureDetection>();
+        case v1::DIHEDRAL:
+            return std::optional(FeatureDetection::kDihedral);
+        case v1::NORMAL_VOTING:
+            return std::optional(FeatureDetection::kNormalVoting);
+        default:
+            return unknown_number("feature_detection", detection, "FEATURE_DETECTION_UNSPECIFIED, DIHEDRAL or NORMAL_VOTING");
+    }
+}
+
+v1::Sizing to_proto(const SizingOptions& options) {
+    v1::Sizing proto;
+    for (const SizeSphere& sphere : options.spheres) {
+        v1::SizeSphere& entry = *proto.add_spheres();
+        *entry.mutable_center() = to_proto(sphere.center);
+        entry.set_radius(sphere.radius);
+        entry.set_size(sphere.size);
+    }
+    for (const SizeBox& box : options.boxes) {
+        v1::SizeBox& entry = *proto.add_boxes();
+        *entry.mutable_min() = to_proto(box.min);
+        *entry.mutable_max() = to_proto(box.max);
+        entry.set_size(box.size);
+    }
+    proto.mutable_field()->Add(options.field.begin(), options.field.end());
+    if (options.chord_error) proto.set_chord_error(*options.chord_error);
+    proto.set_gradation(options.gradation);
+    if (options.min_size) proto.set_min_size(*options.min_size);
+    if (options.max_size) proto.set_max_size(*options.max_size);
+    return proto;
+}
+
+SizingOptions from_proto(const v1::Sizing& proto) {
+    SizingOptions options;
+    for (const v1::SizeSphere& sphere : proto.spheres()) {
+        options.spheres.push_back({from_proto(sphere.center()), sphere.radius(), sphere.size()});
+    }
+    for (const v1::SizeBox& box : proto.boxes()) {
+        options.boxes.push_back({from_proto(box.min()), from_proto(box.max()), box.size()});
+    }
+    options.field.assign(proto.field().begin(), proto.field().end());
+    if (proto.has_chord_error()) options.chord_error = proto.chord_error();
+    if (proto.has_gradation()) options.gradation = proto.gradation();
+    if (proto.has_min_size()) options.min_size = proto.min_size();
+    if (proto.has_max_size()) options.max_size = proto.max_size();
+    return options;
 }
 
 v1::ImproveOptions to_proto(const ImproveOptions& options) {

@@ -18,6 +18,9 @@ namespace vsplit::wire {
 
 [[nodiscard]] v1::Vector to_proto(const Vec3& point);
 
+/// Absent coordinates are 0.
+[[nodiscard]] Vec3 from_proto(const v1::Vector& vector);
+
 /// An empty box has neither corner.
 [[nodiscard]] v1::BoundingBox to_proto(const BoundingBox& box);
 
@@ -38,10 +41,22 @@ namespace vsplit::wire {
 /// MODE_UNSPECIFIED becomes empty. \return INVALID_OPTION (field "mode") for a number that is no mode.
 [[nodiscard]] Expected<std::optional<Mode>> from_proto(v1::Mode mode);
 
+/// Empty becomes FEATURE_DETECTION_UNSPECIFIED.
+[[nodiscard]] v1::FeatureDetection to_proto(std::optional<FeatureDetection> detection);
+
+/// FEATURE_DETECTION_UNSPECIFIED becomes empty. \return INVALID_OPTION (field "feature_detection") for a number that is none.
+[[nodiscard]] Expected<std::optional<FeatureDetection>> from_proto(v1::FeatureDetection detection);
+
+[[nodiscard]] v1::Sizing to_proto(const SizingOptions& options);
+
+/// An absent gradation is the default; ranges are for check_sizing.
+[[nodiscard]] SizingOptions from_proto(const v1::Sizing& proto);
+
 [[nodiscard]] v1::ImproveOptions to_proto(const ImproveOptions& options);
 [[nodiscard]] v1::ControlOptions to_proto(const ControlOptions& options);
 
-/// Fields that are absent stay empty; ranges are for check_options. \return INVALID_OPTION for a mode that is none.
+/// Fields that are absent stay empty; ranges are for check_options. \return INVALID_OPTION for a mode or a detection that is
+/// none.
 [[nodiscard]] Expected<ImproveOptions> from_proto(const v1::ImproveOptions& options);
 [[nodiscard]] Expected<ControlOptions> from_proto(const v1::ControlOptions& options);
 

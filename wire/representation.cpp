@@ -16,15 +16,24 @@ google::protobuf::Duration to_duration(std::chrono::duration<double> elapsed) {
     return proto;
 }
 
+/// Without what may be as large as the mesh: whoever has sent it knows it, and lists of representations must stay small.
+template <class Options>
+auto described(Options options) {
+    options.marked_edges.clear();
+    options.regions.clear();
+    if (options.sizing) options.sizing->field.clear();
+    return to_proto(options);
+}
+
 void set_options(const ImproveOptions& options, v1::Representation& proto) {
     proto.set_method(v1::IMPROVE);
-    *proto.mutable_improve_options() = to_proto(options);
+    *proto.mutable_improve_options() = described(options);
     proto.set_mode(to_proto(options.mode.value_or(Mode::kStrict)));
 }
 
 void set_options(const ControlOptions& options, v1::Representation& proto) {
     proto.set_method(v1::CONTROL);
-    *proto.mutable_control_options() = to_proto(options);
+    *proto.mutable_control_options() = described(options);
     proto.set_mode(to_proto(options.mode.value_or(Mode::kStrict)));
 }
 

@@ -16,6 +16,7 @@
 #include "cli/progress_bar.h"
 #include "cli/remote_run.h"
 #include "cli/report.h"
+#include "cli/size_field_file.h"
 #include "vsplit/base/execution_context.h"
 #include "wire/json.h"
 
@@ -82,8 +83,9 @@ int run_parsed(const Arguments& arguments) {
 
 int run(int argc, const char* const* argv) {
     try {
-        const std::variant<Arguments, int> parsed = parse(argc, argv);
+        std::variant<Arguments, int> parsed = parse(argc, argv);
         if (const int* exit_status = std::get_if<int>(&parsed)) return *exit_status;
+        if (Status read = read_size_field_into(std::get<Arguments>(parsed)); !read) return fail(read.error());
         return run_parsed(std::get<Arguments>(parsed));
     } catch (const std::bad_alloc&) {
         return fail({Cause::kLimitExceeded,

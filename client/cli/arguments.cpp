@@ -22,6 +22,8 @@ constexpr const char* kExitStatuses =
     "Exit status: 0 done; 1 not done, stderr says why; 2 done, but a bound of control could not be met.\n"
     "Example:\n  vsplit improve crankshaft.stl -o improved.vsplit -o improved.stl";
 
+constexpr const char* kSizingGroup = "Sizes that vary over the surface (not offered by this version)";
+
 /// Refuses what is no number, in the words of the engine, before CLI11 does in its own.
 template <class Number>
 CLI::Validator accepts(const char* accepted) {
@@ -100,6 +102,69 @@ void add_resolution(CLI::App& verb, Arguments& a, const char* what) {
     verb.add_option("--faces", a.faces, what)->check(whole_number())->type_name("N");
 }
 
+SizingOptions& sizing_in(std::optional<SizingOptions>& sizing) { return sizing ? *sizing : sizing.emplace(); }
+
+/// The numbers of a list like 1,2,3.5; empty unless they are as many as asked for.
+std::vector<double> numbers_in(const std::string& text, std::size_t count) {
+    std::vector<double> numbers;
+    for (const std::string& word : CLI::detail::split(text, ',')) {
+        double number{};
+        if (!CLI::detail::lexical_cast(word, number)) return {};
+        numbers.push_back(number);
+    }
+    return numbers.size() == count ? numbers : std::vector<double>();
+}
+
+/// An option that is a list of `count` numbers and may be repeated.
+void add_shape(CLI::App& verb, const std::string& name, const char* form, std::size_t count,
+               const std::function<void(const std::vector<double>&)>& take, const std::string& about) {
+    const auto check = [form, count](const std::string& text) {
+        return numbers_in(text, count).empty()
+                   ? "'" + text + "' is given; accepted is " + form + ", " + std::to_string(count) + " numbers without blanks"
+                   : std::string();
+    };
+    const auto convert = [take, count](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) take(numbers_in(text, count));
+    };
+    verb.add_option_function<std::vector<std::string>>(name, convert, about)
+        ->check(CLI::Validator(check, ""))
+        ->type_name(form)
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false)
+        ->group(kSizingGroup);
+}
+
+void add_size(CLI::App& verb, const std::string& name, const std::string& about, const std::function<void(double)>& take) {
+    verb.add_option_function<double>(name, take, about)->check(real_number())->type_name("S")->group(kSizingGroup);
+}
+
+template <class Options>
+void add_sizing(CLI::App& verb, Arguments& a, Options& o) {
+    add_shape(
+        verb, "--size-sphere", "X,Y,Z,RADIUS,SIZE", 5,
+        [&o](const std::vector<double>& n) {
+            sizing_in(o.sizing).spheres.push_back({{n[0], n[1], n[2]}, n[3], n[4]});
+        },
+        "No edge in this ball is longer than SIZE; may be repeated");
+    add_shape(
+        verb, "--size-box", "X0,Y0,Z0,X1,Y1,Z1,SIZE", 7,
+        [&o](const std::vector<double>& n) {
+            sizing_in(o.sizing).boxes.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]});
+        },
+        "No edge in this box is longer than SIZE; may be repeated");
+    add_size(verb, "--chord-error", "Edges short enough to lie this close to the curved surface; length > 0. Default: no bound",
+             [&o](double value) { sizing_in(o.sizing).chord_error = value; });
+    add_size(verb, "--gradation", "Most that the size grows by per unit of length; more than 0, at most 1. Default 0.3",
+             [&o](double value) { sizing_in(o.sizing).gradation = value; });
+    add_size(verb, "--min-size", "No size is less than this, whatever asks for it; length > 0. Default: no bound",
+             [&o](double value) { sizing_in(o.sizing).min_size = value; });
+    verb.add_option("--size-field", a.size_field,
+                    "Text file of sizes, a number a line, one for each vertex of IN in order, 0 for no bound")
+        ->type_name("FILE")
+        ->group(kSizingGroup);
+}
+
 /// What improve and control share.
 template <class Options>
 void add_method(CLI::App& verb, Arguments& a, Options& o, const char* default_faces) {
@@ -129,6 +194,12 @@ void add_method(CLI::App& verb, Arguments& a, Options& o, const char* default_fa
                     "Weight of a right-angled crease against the planes, 0 to 1e6. Default 10")
         ->check(real_number())
         ->type_name("W");
+    add_choice<FeatureDetection>(
+        verb, "--feature-detection",
+        {{"dihedral", FeatureDetection::kDihedral}, {"normal-voting", FeatureDetection::kNormalVoting}},
+        [&o](FeatureDetection detection) { o.feature_detection = detection; },
+        "dihedral|normal-voting: creases by the angle at an edge, or by the normals around it, for noisy scans. Default dihedral")
+        ->type_name("D");
     add_choice<Mode>(
         verb, "--mode", {{"strict", Mode::kStrict}, {"extended", Mode::kExtended}}, [&o](Mode mode) { o.mode = mode; },
         "strict|extended: strict is the paper's method; extended is not offered by this version. Default strict")
@@ -139,6 +210,7 @@ void add_method(CLI::App& verb, Arguments& a, Options& o, const char* default_fa
             "made for")
         ->check(whole_number())
         ->type_name("N");
+    add_sizing(verb, a, o);
 }
 
 void add_info(CLI::App& app, Arguments& a) {

@@ -26,6 +26,7 @@ struct Arguments {
     v1::Repair repair = v1::NONE;
     std::optional<std::uint32_t> faces;         ///< info, quality, resolution: the resolution to show
     std::optional<std::uint32_t> source_faces;  ///< improve, control: resolution of the representation to work on
+    std::string size_field;                     ///< improve, control: file of sizes, read by read_size_field_into
     ImproveOptions improve;
     ControlOptions control;
     std::string against;  ///< quality: the mesh to measure the distance to; empty: none

@@ -89,6 +89,41 @@ TEST(ArgumentsTest, ReadsControlWhole) {
     EXPECT_FALSE(a.control.faces);
 }
 
+TEST(ArgumentsTest, ReadsFeatureDetectionAndSizes) {
+    const Arguments a = arguments(
+        {"improve",     "a.stl",         "--feature-detection", "normal-voting", "--size-sphere",    "1,2,3,4,0.5",   "-o",
+         "b.stl",       "--size-sphere", "-1e3,0,0,0,2",        "--size-box",    "0,0,0,1,2,3,0.25", "--chord-error", "0.01",
+         "--gradation", "0.5",           "--min-size",          "0.1",           "--size-field",     "sizes.txt"});
+    EXPECT_EQ(a.improve.feature_detection, FeatureDetection::kNormalVoting);
+    ASSERT_TRUE(a.improve.sizing);
+    const SizingOptions& sizing = *a.improve.sizing;
+    ASSERT_EQ(sizing.spheres.size(), 2U);
+    EXPECT_EQ(sizing.spheres[0].center, Vec3(1, 2, 3));
+    EXPECT_EQ(sizing.spheres[0].radius, 4);
+    EXPECT_EQ(sizing.spheres[0].size, 0.5);
+    EXPECT_EQ(sizing.spheres[1].center, Vec3(-1000, 0, 0));
+    ASSERT_EQ(sizing.boxes.size(), 1U);
+    EXPECT_EQ(sizing.boxes[0].max, Vec3(1, 2, 3));
+    EXPECT_EQ(sizing.boxes[0].size, 0.25);
+    EXPECT_EQ(sizing.chord_error, 0.01);
+    EXPECT_EQ(sizing.gradation, 0.5);
+    EXPECT_EQ(sizing.min_size, 0.1);
+    EXPECT_EQ(a.size_field, "sizes.txt");
+    EXPECT_FALSE(arguments({"control", "a.stl", "--feature-detection", "dihedral"}).control.sizing);
+    EXPECT_EQ(arguments({"control", "a.stl", "--min-size", "2"}).control.sizing->gradation, kDefaultGradation);
+}
+
+TEST(ArgumentsTest, RefusesShapesThatAreNone) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "--size-sphere", "1,2,3,4"})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "--size-sphere", "1,2,3,4,much"})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "--size-box", "1,2,3,4,5,6,7,8"})), 1);
+    EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "--feature-detection", "magic"})), 1);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("'1,2,3,4' is given; accepted is X,Y,Z,RADIUS,SIZE, 5 numbers"), std::string::npos) << said;
+    EXPECT_NE(said.find("accepted is one of dihedral, normal-voting"), std::string::npos) << said;
+}
+
 TEST(ArgumentsTest, NegativeNumbersReachTheEnginesOwnCheck) {
     EXPECT_EQ(arguments({"improve", "a.stl", "--tolerance", "-1"}).improve.tolerance, -1.0);
     EXPECT_EQ(arguments({"info", "a.stl", "--weld=-1"}).weld, -1.0);

@@ -305,6 +305,37 @@ TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
     }
 }
 
+TEST_F(CommandLineTest, SizesAreReadAndRefusedByName) {
+    const std::string cube = mesh_file("cube.off", test::cube());
+    const auto refused = [&](std::initializer_list<std::string> options, const std::string& part) {
+        std::vector<std::string> all = words({"improve", cube});
+        all.insert(all.end(), options);
+        const CommandResult told = test::run_command(all);
+        EXPECT_EQ(told.exit_status, 1);
+        EXPECT_NE(told.err.find(part), std::string::npos) << told.err;
+    };
+    const std::string sizes = file("sizes.txt");
+    std::ofstream(sizes) << "1\n0\n 2.5e-1 \n\n-3\n";
+    refused({"--size-field", sizes}, "INVALID_OPTION: sizing.field[3] is -3; accepted is");
+    refused({"--size-field", sizes}, "(--size-field)");
+    std::ofstream(sizes) << "1\n2 much\n";
+    refused({"--size-field", sizes}, "MALFORMED_INPUT: line 2 of '" + sizes + "' is '2 much'");
+    std::ofstream(sizes) << "\n";
+    refused({"--size-field", sizes}, "EMPTY_INPUT: ");
+    refused({"--size-field", file("none.txt")}, "NOT_FOUND: cannot read the size field");
+    refused({"--size-sphere", "0,0,0,1,-2"},
+            "sizing.spheres[0].size is -2; accepted is a positive finite length (--size-sphere)");
+    refused({"--gradation", "0"}, "(--gradation)");
+    refused({"--chord-error", "0.1"}, "UNSUPPORTED: sizing comes with the extended mode");
+}
+
+TEST_F(CommandLineTest, FeatureDetectionIsUsedAndReported) {
+    const std::string frame = mesh_file("frame.off", test::cube_frame());
+    const auto made = json_of<v1::Representation>(
+        run({"improve", frame, "--subdivide", "0.3", "--feature-detection", "normal-voting", "--json"}));
+    EXPECT_EQ(made.improve_options().feature_detection(), v1::NORMAL_VOTING);
+}
+
 TEST_F(CommandLineTest, BrokenFilesAreRefusedNotFollowed) {
     std::size_t files = 0;
     for (const auto& entry : fs::directory_iterator(test::data_file("broken"))) {

@@ -65,7 +65,38 @@ ImproveOptions full_improve_options() {
     options.faces = 1000;
     options.faces_min = 10;
     options.mode = Mode::kExtended;
+    options.feature_detection = FeatureDetection::kNormalVoting;
+    options.marked_edges = {0, 1, 4, 2};
+    options.regions = {7, 7, 4294967295U};
+    SizingOptions& sizing = options.sizing.emplace();
+    sizing.spheres = {{{1, 2, 3}, 4, 5}, {{-1, -2, -3}, 0, 0.5}};
+    sizing.boxes = {{{0, 1, 2}, {3, 4, 5}, 6}};
+    sizing.chord_error = 0.25;
+    sizing.field = {0, 1.5, 1e-9};
+    sizing.gradation = 0.75;
+    sizing.min_size = 0.125;
+    sizing.max_size = 100;
     return options;
+}
+
+void expect_same(const SizingOptions& back, const SizingOptions& sent) {
+    ASSERT_EQ(back.spheres.size(), sent.spheres.size());
+    for (std::size_t i = 0; i < sent.spheres.size(); ++i) {
+        EXPECT_EQ(back.spheres[i].center, sent.spheres[i].center);
+        EXPECT_EQ(back.spheres[i].radius, sent.spheres[i].radius);
+        EXPECT_EQ(back.spheres[i].size, sent.spheres[i].size);
+    }
+    ASSERT_EQ(back.boxes.size(), sent.boxes.size());
+    for (std::size_t i = 0; i < sent.boxes.size(); ++i) {
+        EXPECT_EQ(back.boxes[i].min, sent.boxes[i].min);
+        EXPECT_EQ(back.boxes[i].max, sent.boxes[i].max);
+        EXPECT_EQ(back.boxes[i].size, sent.boxes[i].size);
+    }
+    EXPECT_EQ(back.chord_error, sent.chord_error);
+    EXPECT_EQ(back.field, sent.field);
+    EXPECT_EQ(back.gradation, sent.gradation);
+    EXPECT_EQ(back.min_size, sent.min_size);
+    EXPECT_EQ(back.max_size, sent.max_size);
 }
 
 TEST(ConvertTest, ImproveOptionsSurviveTheWay) {
@@ -80,6 +111,11 @@ TEST(ConvertTest, ImproveOptionsSurviveTheWay) {
     EXPECT_EQ(back->faces, options.faces);
     EXPECT_EQ(back->faces_min, options.faces_min);
     EXPECT_EQ(back->mode, options.mode);
+    EXPECT_EQ(back->feature_detection, options.feature_detection);
+    EXPECT_EQ(back->marked_edges, options.marked_edges);
+    EXPECT_EQ(back->regions, options.regions);
+    ASSERT_TRUE(back->sizing);
+    expect_same(*back->sizing, *options.sizing);
 }
 
 TEST(ConvertTest, ControlOptionsSurviveTheWay) {
@@ -90,6 +126,9 @@ TEST(ConvertTest, ControlOptionsSurviveTheWay) {
     options.max_valence = 9;
     options.tolerance = 0.5;
     options.mode = Mode::kStrict;
+    options.feature_detection = FeatureDetection::kDihedral;
+    options.regions = {1, 2};
+    options.sizing.emplace().chord_error = 0.5;
     const Expected<ControlOptions> back = from_proto(to_proto(options));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->subdivisions, options.subdivisions);
@@ -98,6 +137,11 @@ TEST(ConvertTest, ControlOptionsSurviveTheWay) {
     EXPECT_EQ(back->max_valence, options.max_valence);
     EXPECT_EQ(back->tolerance, options.tolerance);
     EXPECT_EQ(back->mode, options.mode);
+    EXPECT_EQ(back->feature_detection, options.feature_detection);
+    EXPECT_EQ(back->regions, options.regions);
+    EXPECT_TRUE(back->marked_edges.empty());
+    ASSERT_TRUE(back->sizing);
+    expect_same(*back->sizing, *options.sizing);
     EXPECT_FALSE(back->faces || back->faces_min || back->max_deviation || back->feature_angle || back->feature_weight);
 }
 
@@ -105,6 +149,12 @@ TEST(ConvertTest, AbsentOptionsStayAbsentAndZeroDoesNot) {
     const Expected<ImproveOptions> empty = from_proto(v1::ImproveOptions());
     ASSERT_TRUE(empty);
     EXPECT_FALSE(empty->subdivision_size || empty->tolerance || empty->faces || empty->mode);
+    EXPECT_FALSE(empty->feature_detection || empty->sizing);
+    EXPECT_TRUE(empty->marked_edges.empty() && empty->regions.empty());
+    v1::ImproveOptions bare;
+    bare.mutable_sizing();
+    ASSERT_TRUE(from_proto(bare)->sizing);
+    EXPECT_EQ(from_proto(bare)->sizing->gradation, kDefaultGradation);
     v1::ImproveOptions zero;
     zero.set_tolerance(0);
     EXPECT_EQ(from_proto(zero)->tolerance, 0.0);  // for check_options to refuse
@@ -117,6 +167,9 @@ TEST(ConvertTest, UnknownEnumNumbersAreNamedErrors) {
     v1::ControlOptions control;
     control.set_mode(static_cast<v1::Mode>(7));
     EXPECT_EQ(from_proto(control).error().cause, Cause::kInvalidOption);
+    control.clear_mode();
+    control.set_feature_detection(static_cast<v1::FeatureDetection>(9));
+    EXPECT_EQ(from_proto(control).error().field, "feature_detection");
     EXPECT_EQ(from_proto(static_cast<v1::MeshFormat>(99)).error().field, "format");
     EXPECT_EQ(from_proto(static_cast<v1::RecordEncoding>(99)).error().field, "encoding");
     EXPECT_EQ(check_repair(static_cast<v1::Repair>(99)).error().cause, Cause::kInvalidOption);

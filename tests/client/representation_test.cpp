@@ -51,6 +51,21 @@ TEST(RepresentationTest, DescribesWhatControlCouldNotMend) {
     EXPECT_EQ(made.violations(0).reason(), "no collapse helps");
 }
 
+TEST(RepresentationTest, LeavesOutWhatMayBeAsLargeAsTheMesh) {
+    ImproveOptions options;
+    options.feature_detection = FeatureDetection::kNormalVoting;
+    options.marked_edges = {1, 2};
+    options.regions = {1, 1, 2, 2};
+    options.sizing.emplace().field = {1, 2, 3, 4};
+    options.sizing->chord_error = 0.5;
+    const v1::Representation made = describe("r4", "", 4, a_result(options));
+    EXPECT_EQ(made.improve_options().feature_detection(), v1::NORMAL_VOTING);
+    EXPECT_EQ(made.improve_options().marked_edges_size(), 0);
+    EXPECT_EQ(made.improve_options().regions_size(), 0);
+    EXPECT_EQ(made.improve_options().sizing().field_size(), 0);
+    EXPECT_EQ(made.improve_options().sizing().chord_error(), 0.5);
+}
+
 TEST(RepresentationTest, FollowsToAnotherResolution) {
     ControlOptions options;
     options.min_stretch = 0.5;

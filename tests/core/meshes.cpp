@@ -189,6 +189,16 @@ TriangleMesh bumpy_sphere(unsigned subdivisions, double noise, std::uint64_t see
     return mesh;
 }
 
+TriangleMesh noisy_cube(std::uint32_t cells, double noise, std::uint64_t seed) {
+    const auto size = static_cast<int>(cells);
+    TriangleMesh mesh = CellSurface({size, size, size}, [](const Cell&) { return true; }).build();
+    Random random(seed);
+    for (Vec3& p : mesh.positions) {
+        for (double& x : p) x = (x + random.uniform(-noise, noise)) / cells;
+    }
+    return mesh;
+}
+
 TriangleMesh shuffled(const TriangleMesh& mesh, std::uint64_t seed) {
     Random random(seed);
     const std::vector<std::uint32_t> new_index = permutation(mesh.vertex_count(), random);

@@ -35,6 +35,9 @@ namespace vsplit::test {
 /// An icosphere with waves and noise of up to `noise` of the radius, as a scanner would see it.
 [[nodiscard]] TriangleMesh bumpy_sphere(unsigned subdivisions, double noise, std::uint64_t seed);
 
+/// The unit cube with `cells` * `cells` squares a side and noise of up to `noise` of their side along each axis.
+[[nodiscard]] TriangleMesh noisy_cube(std::uint32_t cells, double noise, std::uint64_t seed);
+
 /// The same surface with vertices and faces in another order and the corners of each face turned.
 [[nodiscard]] TriangleMesh shuffled(const TriangleMesh& mesh, std::uint64_t seed);
 

@@ -6,11 +6,11 @@
 
 namespace vsplit {
 
-EdgeIndex::EdgeIndex(const TriangleMesh& mesh) {
+EdgeIndex::EdgeIndex(const std::vector<Triangle>& faces, std::size_t vertices) {
     // A counting sort by the smaller vertex, which leaves half-edges in order; then each vertex's few edges by the larger one.
-    std::vector<std::uint32_t> first(mesh.positions.size() + 1, 0);
-    const auto half_edges = static_cast<HalfEdge>(mesh.faces.size() * 3);
-    const auto ends = [&](HalfEdge h) { return std::minmax({origin(mesh, h), origin(mesh, next(h))}); };
+    std::vector<std::uint32_t> first(vertices + 1, 0);
+    const auto half_edges = static_cast<HalfEdge>(faces.size() * 3);
+    const auto ends = [&](HalfEdge h) { return std::minmax({origin(faces, h), origin(faces, next(h))}); };
     for (HalfEdge h = 0; h < half_edges; ++h) ++first[ends(h).first + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
     entries_.resize(half_edges);

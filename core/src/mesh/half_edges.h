@@ -17,8 +17,10 @@ inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 [[nodiscard]] inline HalfEdge prev(HalfEdge h) { return h % 3 == 0 ? h + 2 : h - 1; }
 [[nodiscard]] inline std::uint32_t face_of(HalfEdge h) { return h / 3; }
 
+[[nodiscard]] inline std::uint32_t origin(const std::vector<Triangle>& faces, HalfEdge h) { return faces[h / 3][h % 3]; }
+
 /// The vertex at a corner of `mesh`.
-[[nodiscard]] inline std::uint32_t origin(const TriangleMesh& mesh, HalfEdge h) { return mesh.faces[h / 3][h % 3]; }
+[[nodiscard]] inline std::uint32_t origin(const TriangleMesh& mesh, HalfEdge h) { return origin(mesh.faces, h); }
 
 /// Half-edges by undirected edge: those of edge (a, b), a < b, stand together, edges in order of (a, b), half-edges in order of
 /// number. Works for any faces, manifold or not. O(faces log(largest valence)).
@@ -32,7 +34,8 @@ public:
         [[nodiscard]] std::uint32_t b() const { return static_cast<std::uint32_t>(key); }
     };
 
-    explicit EdgeIndex(const TriangleMesh& mesh);
+    explicit EdgeIndex(const TriangleMesh& mesh) : EdgeIndex(mesh.faces, mesh.positions.size()) {}
+    EdgeIndex(const std::vector<Triangle>& faces, std::size_t vertices);
 
     /// Calls visit(first, last), a range of entries, for each undirected edge in order.
     template <class Visit>

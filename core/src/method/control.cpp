@@ -86,6 +86,7 @@ ControlOptions default_options(const TriangleMesh& mesh, const ControlOptions& o
     used.subdivisions = options.subdivisions.value_or(kDefaultSubdivisions);
     used.tolerance = options.tolerance ? *options.tolerance : kDefaultToleranceShare * bounding_box(mesh).diagonal();
     used.min_stretch = options.min_stretch.value_or(kStretchFloor);
+    used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
     used.faces = options.faces ? *options.faces : std::max(mesh.face_count(), options.faces_min.value_or(kLeastFaces));
@@ -133,12 +134,12 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     if (Status valid = check_options(options); !valid) return valid.error();
     context.report({"inspect", 0, mesh.face_count()});
     if (Status closed = require_closed_manifold(inspect(mesh)); !closed) return closed.error();
+    if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
     const ControlOptions used = default_options(mesh, options);
 
     Expected<SubdividedMesh> subdivided = subdivide(mesh, used, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    SimplifyInput input =
-        prepare(mesh, std::move(*subdivided), {*used.feature_angle, *used.feature_weight, *used.tolerance, *used.faces_min});
+    SimplifyInput input = prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min});
     Expected<MultiresMesh> mrr = simplify(std::move(input), policy_of(used, bounding_box(mesh).diagonal()), context);
     if (!mrr) return mrr.error();
     MethodResult result = describe_resolution(std::move(*mrr), *used.faces);

@@ -42,6 +42,7 @@ ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& o
     used.subdivision_size =
         options.subdivision_size ? *options.subdivision_size : default_subdivision_size(mesh, diagonal, limits.max_faces);
     used.tolerance = options.tolerance.value_or(kDefaultToleranceShare * diagonal);
+    used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
     used.faces =
@@ -59,12 +60,12 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     if (Status valid = check_options(options); !valid) return valid.error();
     context.report({"inspect", 0, mesh.face_count()});
     if (Status closed = require_closed_manifold(inspect(mesh)); !closed) return closed.error();
+    if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
     ImproveOptions used = default_options(mesh, options, limits);
 
     Expected<SubdividedMesh> subdivided = subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    SimplifyInput input =
-        prepare(mesh, std::move(*subdivided), {*used.feature_angle, *used.feature_weight, *used.tolerance, *used.faces_min});
+    SimplifyInput input = prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min});
     Expected<MultiresMesh> mrr = simplify(std::move(input), ImprovePolicy{}, context);
     if (!mrr) return mrr.error();
     if (!options.faces) used.faces = std::max(*used.faces, kFacesOverCoarsest * mrr->faces_min());

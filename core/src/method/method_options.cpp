@@ -1,18 +1,13 @@
 #include "vsplit/method/method_options.h"
 
-#include <array>
-#include <cmath>
-#include <cstdio>
+#include <algorithm>
+#include <limits>
 #include <string>
+
+#include "base/number_text.h"
 
 namespace vsplit {
 namespace {
-
-std::string number(double value) {
-    std::array<char, 32> text{};
-    const int length = std::snprintf(text.data(), text.size(), "%g", value);
-    return {text.data(), static_cast<std::size_t>(length)};
-}
 
 Error invalid(const std::string& field, const std::string& was, const std::string& accepted) {
     return {Cause::kInvalidOption, field + " is " + was + "; accepted is " + accepted, field};
@@ -36,7 +31,7 @@ constexpr std::uint32_t kLeastValenceBound = 6;
 Status check_range(const std::optional<double>& value, const Range& range, const char* field) {
     if (!value) return Done{};
     const bool inside = (range.low_included ? *value >= range.low : *value > range.low) && *value <= range.high;
-    return inside ? Status(Done{}) : invalid(field, number(*value), range.words);  // NaN is never inside
+    return inside ? Status(Done{}) : invalid(field, number_text(*value), range.words);  // NaN is never inside
 }
 
 Status check_faces(const std::optional<std::uint32_t>& faces, const std::optional<std::uint32_t>& faces_min) {
@@ -48,9 +43,19 @@ Status check_faces(const std::optional<std::uint32_t>& faces, const std::optiona
     return Done{};
 }
 
+/// Contents first, so that what is wrong with them is not found out one version later.
+Status check_sizing_given(const std::optional<SizingOptions>& sizing, const std::optional<double>& max_size,
+                          const std::optional<Mode>& mode) {
+    if (!sizing) return Done{};
+    if (Status s = check_sizing(*sizing, max_size); !s) return s;
+    if (mode == Mode::kExtended) return Done{};
+    return Error{Cause::kUnsupported, "sizing comes with the extended mode; in mode STRICT leave it out", "sizing"};
+}
+
 /// What both methods share.
 template <class Options>
-Status check_common(const Options& options) {
+Status check_common(const Options& options, const std::optional<double>& max_size) {
+    if (Status s = check_sizing_given(options.sizing, max_size, options.mode); !s) return s;
     if (options.max_deviation) {
         return Error{Cause::kUnsupported,
                      "max_deviation comes with the extended mode, which this version does not offer; leave it out "
@@ -66,11 +71,23 @@ Status check_common(const Options& options) {
     return check_faces(options.faces, options.faces_min);
 }
 
+template <class Options>
+Status check_on(const TriangleMesh& source, const Options& options) {
+    if (Status s = check_features(source, options.marked_edges, options.regions); !s) return s;
+    return options.sizing ? check_sizing_on(source, *options.sizing) : Status(Done{});
+}
+
+template <class Options>
+FeatureOptions features_of(const Options& options) {
+    return {options.feature_detection.value_or(FeatureDetection::kDihedral), options.feature_angle.value_or(kDefaultFeatureAngle),
+            options.feature_weight.value_or(kDefaultFeatureWeight), options.marked_edges, options.regions};
+}
+
 }  // namespace
 
 Status check_options(const ImproveOptions& options) {
     if (Status s = check_range(options.subdivision_size, kPositive, "subdivision_size"); !s) return s;
-    return check_common(options);
+    return check_common(options, {});
 }
 
 Status check_options(const ControlOptions& options) {
@@ -83,7 +100,22 @@ Status check_options(const ControlOptions& options) {
         return invalid("max_valence", std::to_string(*options.max_valence),
                        "at least 6 (the mean valence of a closed mesh is about 6)");
     }
-    return check_common(options);
+    return check_common(options, options.max_size);
+}
+
+Status check_options_on(const TriangleMesh& source, const ImproveOptions& options) { return check_on(source, options); }
+Status check_options_on(const TriangleMesh& source, const ControlOptions& options) { return check_on(source, options); }
+
+FeatureOptions feature_options(const ImproveOptions& options) { return features_of(options); }
+FeatureOptions feature_options(const ControlOptions& options) { return features_of(options); }
+
+std::optional<SizingOptions> sizing_options(const ImproveOptions& options) { return options.sizing; }
+
+std::optional<SizingOptions> sizing_options(const ControlOptions& options) {
+    if (!options.max_size) return options.sizing;
+    SizingOptions sizing = options.sizing.value_or(SizingOptions());
+    sizing.max_size = std::min(sizing.max_size.value_or(std::numeric_limits<double>::infinity()), *options.max_size);
+    return sizing;
 }
 
 }  // namespace vsplit

@@ -4,7 +4,6 @@
 
 #include "mesh/spatial_order.h"
 #include "vsplit/features/face_normals.h"
-#include "vsplit/features/sharp_edges.h"
 #include "vsplit/mrr/progressive_mesh.h"
 
 namespace vsplit {
@@ -46,11 +45,11 @@ std::vector<Quadric> vertex_quadrics(const TriangleMesh& mesh, const FaceNormals
 SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options) {
     const BoundingBox box = bounding_box(source);
     order_spatially(subdivided);
-    FaceNormals normals = inherit(face_normals(source), subdivided.parent);
+    const FaceNormals source_normals = face_normals(source);
+    FaceNormals normals = inherit(source_normals, subdivided.parent);
     SimplifyInput input;
     input.centre = (box.min + box.max) / 2;
-    const std::vector<SharpEdge> creases =
-        find_sharp_edges(subdivided.mesh, normals, {options.feature_angle, options.feature_weight});
+    const std::vector<SharpEdge> creases = creases_on(subdivided, source, find_creases(source, source_normals, options.features));
     input.quadrics = vertex_quadrics(subdivided.mesh, normals, creases, input.centre);
     input.mesh = std::move(subdivided.mesh);
     input.normals = std::move(normals.normals);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simplify/simplify.h"
+#include "vsplit/features/creases.h"
 #include "vsplit/method/method_result.h"
 #include "vsplit/subdivide/subdivide.h"
 
@@ -8,8 +9,7 @@ namespace vsplit {
 
 /// What both methods hand to the simplifier, defaults filled in.
 struct PrepareOptions {
-    double feature_angle = 0;
-    double feature_weight = 0;
+    FeatureOptions features;
     double tolerance = 0;
     std::uint32_t faces_min = 0;
 };

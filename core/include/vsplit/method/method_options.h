@@ -3,8 +3,12 @@
 #include <cstdint>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "vsplit/base/expected.h"
+#include "vsplit/features/creases.h"
+#include "vsplit/mesh/triangle_mesh.h"
+#include "vsplit/sizing/sizing_options.h"
 
 namespace vsplit {
 
@@ -30,21 +34,30 @@ struct ImproveOptions {
         faces{};  ///< resolution of the result; default: mean edge 1.5 subdivision_size, but at least twice the coarsest
     std::optional<std::uint32_t> faces_min{};  ///< simplify down to this many faces, or until no edge is valid; default 4
     std::optional<Mode> mode{};                ///< default STRICT
+    std::optional<FeatureDetection> feature_detection{};  ///< how creases are found; default DIHEDRAL
+    std::vector<std::uint32_t> marked_edges{};  ///< edges to keep as creases, as pairs of vertices of the source; default none
+    std::vector<std::uint32_t> regions{};       ///< an id a face of the source; borders between ids are creases. Default none
+    std::optional<SizingOptions>
+        sizing{};  ///< edges as long as a place on the surface allows; comes with the extended mode (UNSUPPORTED now)
 };
 
 /// What `control` may be asked for. Lengths in model units.
 struct ControlOptions {
-    std::optional<std::uint32_t> subdivisions{};  ///< one-to-four, 0..12 times; default 1
-    std::optional<double> tolerance{};            ///< as in ImproveOptions
-    std::optional<double> max_deviation{};        ///< as in ImproveOptions
-    std::optional<double> min_stretch{};          ///< tau_ST, 0..1; default 0.2
-    std::optional<double> max_size{};             ///< tau_SZ, > 0; default none
-    std::optional<std::uint32_t> max_valence{};   ///< tau_VL, >= 6; default none
-    std::optional<double> feature_angle{};        ///< as in ImproveOptions
-    std::optional<double> feature_weight{};       ///< as in ImproveOptions
-    std::optional<std::uint32_t> faces{};         ///< resolution of the result; default: as many as the source has
-    std::optional<std::uint32_t> faces_min{};     ///< as in ImproveOptions
-    std::optional<Mode> mode{};                   ///< default STRICT
+    std::optional<std::uint32_t> subdivisions{};          ///< one-to-four, 0..12 times; default 1
+    std::optional<double> tolerance{};                    ///< as in ImproveOptions
+    std::optional<double> max_deviation{};                ///< as in ImproveOptions
+    std::optional<double> min_stretch{};                  ///< tau_ST, 0..1; default 0.2
+    std::optional<double> max_size{};                     ///< tau_SZ, > 0; default none
+    std::optional<std::uint32_t> max_valence{};           ///< tau_VL, >= 6; default none
+    std::optional<double> feature_angle{};                ///< as in ImproveOptions
+    std::optional<double> feature_weight{};               ///< as in ImproveOptions
+    std::optional<std::uint32_t> faces{};                 ///< resolution of the result; default: as many as the source has
+    std::optional<std::uint32_t> faces_min{};             ///< as in ImproveOptions
+    std::optional<Mode> mode{};                           ///< default STRICT
+    std::optional<FeatureDetection> feature_detection{};  ///< as in ImproveOptions
+    std::vector<std::uint32_t> marked_edges{};            ///< as in ImproveOptions
+    std::vector<std::uint32_t> regions{};                 ///< as in ImproveOptions
+    std::optional<SizingOptions> sizing{};                ///< as in ImproveOptions; max_size bounds it too
 };
 
 /// What either method is asked for; which one says which method it is.
@@ -56,8 +69,21 @@ struct MethodLimits {
 };
 
 /// Ranges and contradictions. \return INVALID_OPTION or UNSUPPORTED naming the field, what it was and what would be accepted.
-/// O(1).
+/// O(size of the options).
 [[nodiscard]] Status check_options(const ImproveOptions& options);
 [[nodiscard]] Status check_options(const ControlOptions& options);
+
+/// What only the source can tell: whether marked_edges, regions and sizing.field fit it. \return INVALID_OPTION. O(faces).
+[[nodiscard]] Status check_options_on(const TriangleMesh& source, const ImproveOptions& options);
+[[nodiscard]] Status check_options_on(const TriangleMesh& source, const ControlOptions& options);
+
+/// What is asked for about creases, defaults filled in.
+[[nodiscard]] FeatureOptions feature_options(const ImproveOptions& options);
+[[nodiscard]] FeatureOptions feature_options(const ControlOptions& options);
+
+/// What is asked for about sizes, for `make_size_field`: `sizing`, and `max_size` of control as a bound everywhere. Empty when
+/// neither is given.
+[[nodiscard]] std::optional<SizingOptions> sizing_options(const ImproveOptions& options);
+[[nodiscard]] std::optional<SizingOptions> sizing_options(const ControlOptions& options);
 
 }  // namespace vsplit
