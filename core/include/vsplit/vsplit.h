@@ -19,6 +19,7 @@
 #include "vsplit/mrr/multires_mesh.h"
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/mrr/record_block.h"
+#include "vsplit/mrr/records.h"
 #include "vsplit/quality/mesh_quality.h"
 #include "vsplit/quality/stretch.h"
 #include "vsplit/simplify/quadric.h"
