@@ -49,16 +49,16 @@ Status check_indices_and_coordinates(const TriangleMesh& mesh) {
 
 Status check_ghosts(const TriangleMesh& mesh, std::uint32_t ghosts) {
     if (ghosts > mesh.vertex_count()) {
-        return corrupt("base mesh: " + std::to_string(ghosts) + " ghosts among " + std::to_string(mesh.vertex_count()) +
+        return corrupt(std::to_string(ghosts) + " ghosts among " + std::to_string(mesh.vertex_count()) +
                        " vertices");
     }
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
         const Triangle& face = mesh.faces[f];
         if (std::count_if(face.begin(), face.end(), [ghosts](std::uint32_t v) { return v < ghosts; }) < 2) continue;
-        return corrupt("base mesh: face " + std::to_string(f) + " joins two ghosts; each closes a boundary of its own");
+        return corrupt("face " + std::to_string(f) + " joins two ghosts; each closes a boundary of its own");
     }
     if (count_ghost_faces(mesh, ghosts) < mesh.face_count()) return Done{};
-    return Error{Cause::kEmptyInput, "base mesh: every face touches a ghost; none is visible", ""};
+    return Error{Cause::kEmptyInput, "every face touches a ghost; none is visible", ""};
 }
 
 }  // namespace

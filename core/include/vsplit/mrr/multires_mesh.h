@@ -22,7 +22,7 @@ struct MultiresMesh {
     RecordList records;
     std::uint32_t ghosts = 0;                  ///< 0: the mesh is closed
     std::uint32_t ghost_faces = 0;             ///< faces of the base that touch a ghost; count_ghost_faces(base, ghosts)
-    std::vector<std::uint32_t> border_splits;  ///< splits, ascending, that add one visible face; all others add two
+    std::vector<std::uint32_t> border_splits = {};  ///< splits, ascending, that add one visible face; all others add two
 
     /// Number of splits.
     [[nodiscard]] std::size_t levels() const { return records.splits().size(); }
