@@ -18,7 +18,9 @@ protected:
         const std::size_t first = mrr_.record_of_level(from);
         return mrr_.records.slice(first, mrr_.record_of_level(to) - first);
     }
-    [[nodiscard]] std::uint32_t number(std::size_t level) const { return static_cast<std::uint32_t>(mrr_.record_of_level(level)); }
+    [[nodiscard]] std::uint32_t number(std::size_t level) const {
+        return static_cast<std::uint32_t>(mrr_.record_of_level(level));
+    }
 
     MultiresMesh mrr_ = test::some_mrr(50);
     MeshReceiver receiver_;

@@ -12,9 +12,9 @@ namespace vsplit::test {
 namespace {
 
 TEST(CollapseLogTest, EveryLevelIsTheMeshThatWas) {
-    for (const TriangleMesh& mesh : {icosphere(2), torus(12, 8), plate_with_holes(2),
-                                     joined(icosphere(1), cube_frame(), Vec3(10, 0, 0)), square(9),
-                                     punctured(torus(16, 10), {0, 35, 70, 105}), punctured(icosphere(2), {0, 1, 2, 3})}) {
+    for (const TriangleMesh& mesh :
+         {icosphere(2), torus(12, 8), plate_with_holes(2), joined(icosphere(1), cube_frame(), Vec3(10, 0, 0)), square(9),
+          punctured(torus(16, 10), {0, 35, 70, 105}), punctured(icosphere(2), {0, 1, 2, 3})}) {
         const EditedMrr edited = edited_mrr(mesh, 100, mesh.face_count(), true);
         const MultiresMesh& mrr = edited.mrr;
         ASSERT_GT(mrr.levels(), 10U);

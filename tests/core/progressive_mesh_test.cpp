@@ -177,16 +177,17 @@ TEST_F(RefusalTest, FlipsThatDoNotFit) {
     begin(test::tetrahedron());
     EXPECT_TRUE(refused(EdgeFlip{12}, "12 is no half-edge"));
     EXPECT_TRUE(refused(EdgeFlip{0}, "valence under 4"));
-    begin(test::torus(3, 4));  // around the short way every two vertices have an edge
+    const TriangleMesh ring = test::torus(3, 4);  // around the short way every two vertices have an edge
     int there_already = 0;
-    for (std::uint32_t h = 0; h < mesh_->mesh().face_count() * 3; ++h)
+    for (std::uint32_t h = 0; h < ring.face_count() * 3; ++h) {
+        begin(ring);
         there_already += refused(EdgeFlip{h}, "which have an edge already") ? 1 : 0;
-    mesh_->rewind(0);
+    }
     EXPECT_GT(there_already, 0);
 }
 
 TEST_F(RefusalTest, FlipsAreAcceptedExactlyWhereTheyAreLegal) {
-    const TriangleMesh base = test::torus(4, 4);
+    const TriangleMesh base = test::torus(4, 3);
     const test::RandomEditor editor(base, 0, 0);
     int legal = 0, illegal = 0;
     for (std::uint32_t h = 0; h < base.face_count() * 3; ++h) {
@@ -227,13 +228,12 @@ TEST_F(RefusalTest, WhatTouchesAGhost) {
 }
 
 TEST_F(RefusalTest, SplitsBetweenTwoGhosts) {
-    // An octahedron whose poles are ghosts' neighbours: vertex 2 has the ghosts 0 and 1 on opposite sides of its ring.
-    const TriangleMesh octahedron{{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 5}},
-                                  {{0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 2}, {1, 3, 2}, {1, 4, 3}, {1, 2, 5}, {6, 5, 4}, {1, 6, 4}, {1, 5, 6}}};
+    // An octahedron whose poles are ghosts, so that vertex 2 lies between them, with one face beside the lower one raised.
+    const TriangleMesh octahedron{
+        {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 5}},
+        {{0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 2}, {1, 3, 2}, {1, 4, 3}, {1, 2, 5}, {6, 5, 4}, {1, 6, 4}, {1, 5, 6}}};
     begin(octahedron, 2);
-    // Around vertex 2: from the face (0, 2, 3), whose edge 2 -> 3 is followed by 2 -> 0.
     const Vec3 here(1, 0, 0), there(1, 0.1, 0);
-    EXPECT_TRUE(refused(VertexSplit{5 * 3 + 0, 1, here, there}, "ghost"));  // corner of ghost 1
     bool between = false;
     for (std::uint32_t corner = 0; corner < octahedron.face_count() * 3; ++corner) {
         if (origin(octahedron, corner) != 2 || origin(octahedron, next(corner)) > 1) continue;

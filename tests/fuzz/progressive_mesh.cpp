@@ -101,9 +101,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const MeshReport report = inspect(mesh->mesh());
     fuzz::check(report.closed && report.genus == inspect(base).genus, "the mesh stays closed and of its genus");
     const std::uint32_t ghost_faces = count_ghost_faces(base, mesh->ghosts());
-    fuzz::check(mesh->visible().face_count() ==
-                    base.face_count() - ghost_faces + 2 * mesh->level() - mesh->border_splits().size(),
-                "visible faces are counted");
+    fuzz::check(
+        mesh->visible().face_count() == base.face_count() - ghost_faces + 2 * mesh->level() - mesh->border_splits().size(),
+        "visible faces are counted");
     mesh->coarsen(mesh->level());
     fuzz::check(mesh->records() == 0 && mesh->mesh() == base, "undoing every record gives the base");
     return 0;

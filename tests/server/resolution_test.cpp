@@ -19,7 +19,8 @@ SessionSnapshot session_with(int representations) {
     MethodResult result;
     result.mrr.base = test::tetrahedron();
     for (int split = 0; split < 10; ++split) {
-        for (const Record& record : {Record(EdgeFlip{}), Record(VertexMove{}), Record(VertexSplit{})}) result.mrr.records.push_back(record);
+        for (const Record& record : {Record(EdgeFlip{}), Record(VertexMove{}), Record(VertexSplit{})})
+            result.mrr.records.push_back(record);
     }
     result.faces = 14;
     for (int i = 1; i <= representations; ++i) {

@@ -32,9 +32,8 @@ Status MeshReceiver::begin(TriangleMesh base, std::uint32_t ghosts) {
 Status MeshReceiver::append(std::uint32_t first, const RecordSpan& records) {
     if (!has_mesh()) return Error{Cause::kOutOfOrder, "records came without a base mesh", ""};
     if (first != records_held()) {
-        return Error{
-            Cause::kOutOfOrder,
-            "a block begins at record " + std::to_string(first) + ", expected is " + std::to_string(records_held()), ""};
+        return Error{Cause::kOutOfOrder,
+                     "a block begins at record " + std::to_string(first) + ", expected is " + std::to_string(records_held()), ""};
     }
     const std::uint64_t faces = held_.base.face_count() + 2 * (std::uint64_t{held_.levels()} + records.splits.size());
     if (faces > max_faces_) return too_many(faces, max_faces_);

@@ -22,8 +22,7 @@ public:
 
     Expected<StoredMrr> decode() {
         for (const auto step : {&MrrDecoder::check_magic, &MrrDecoder::check_header, &MrrDecoder::check_sizes,
-                                &MrrDecoder::read_base, &MrrDecoder::read_blocks,
-                                &MrrDecoder::check_end}) {
+                                &MrrDecoder::read_base, &MrrDecoder::read_blocks, &MrrDecoder::check_end}) {
             if (const Status status = (this->*step)(); !status) return status.error();
         }
         return std::move(stored_);
@@ -41,7 +40,8 @@ private:
                             "this is no .vsplit file; one begins with the bytes 89 56 53 50 0d 0a 1a 0a");
         }
         if (bytes_.size() >= kMrrHeaderBytes) return Done{};
-        return error_at(Cause::kTruncatedInput, bytes_.size(), "the file ends within its header of " + std::to_string(kMrrHeaderBytes) + " bytes");
+        return error_at(Cause::kTruncatedInput, bytes_.size(),
+                        "the file ends within its header of " + std::to_string(kMrrHeaderBytes) + " bytes");
     }
 
     Status check_header() {
@@ -72,8 +72,9 @@ private:
         if (corners >= std::numeric_limits<std::uint32_t>::max())
             return error_at(Cause::kCorrupt, kMrrSplitsAt, "the finest level would have more corners than 32 bits can number");
         if (field(kMrrSplitsAt) <= field(kMrrRecordsAt)) return Done{};
-        return error_at(Cause::kCorrupt, kMrrSplitsAt,
-                        std::to_string(field(kMrrSplitsAt)) + " splits among " + std::to_string(field(kMrrRecordsAt)) + " records");
+        return error_at(
+            Cause::kCorrupt, kMrrSplitsAt,
+            std::to_string(field(kMrrSplitsAt)) + " splits among " + std::to_string(field(kMrrRecordsAt)) + " records");
     }
 
     Status read_base() {
@@ -117,8 +118,9 @@ private:
             return error_at(Cause::kCorrupt, at_, std::to_string(left()) + " bytes follow the last of " + all);
         }
         if (mesh_->level() != field(kMrrSplitsAt)) {
-            return error_at(Cause::kCorrupt, kMrrSplitsAt, std::to_string(mesh_->level()) + " of " + all + " are splits, not " +
-                                                               std::to_string(field(kMrrSplitsAt)));
+            return error_at(
+                Cause::kCorrupt, kMrrSplitsAt,
+                std::to_string(mesh_->level()) + " of " + all + " are splits, not " + std::to_string(field(kMrrSplitsAt)));
         }
         if (!records().empty() && records().kinds().back() != RecordKind::kSplit) {
             return error_at(Cause::kCorrupt, bytes_.size(), "the last of " + all + " is no split; edits stand before a split");
@@ -141,8 +143,7 @@ private:
         if (block.first != read || block.count == 0 || block.count > due) {
             return error_at(Cause::kCorrupt, block_at,
                             "a block has records " + std::to_string(block.first) + " and on, " + std::to_string(block.count) +
-                                " in all, where up to " + std::to_string(due) + " from " + std::to_string(read) +
-                                " on are due");
+                                " in all, where up to " + std::to_string(due) + " from " + std::to_string(read) + " on are due");
         }
         if (payload_bytes > left()) return truncated();
         block.payload.assign(reinterpret_cast<const char*>(bytes_.data() + at_), payload_bytes);

@@ -24,10 +24,10 @@ char* store_base(char* to, const StoredMrr& stored) {
 
 void store_header(char* file, const StoredMrr& stored, std::uint32_t base_crc) {
     char* to = std::copy(kMrrMagic.begin(), kMrrMagic.end(), file);
-    for (const std::uint32_t field : {kMrrVersion, stored.mrr.base.vertex_count(), stored.mrr.base.face_count(),
-                                      stored.mrr.ghosts, static_cast<std::uint32_t>(stored.mrr.levels()),
-                                      static_cast<std::uint32_t>(stored.mrr.records.size()), stored.faces,
-                                      static_cast<std::uint32_t>(stored.description.size()), base_crc}) {
+    for (const std::uint32_t field :
+         {kMrrVersion, stored.mrr.base.vertex_count(), stored.mrr.base.face_count(), stored.mrr.ghosts,
+          static_cast<std::uint32_t>(stored.mrr.levels()), static_cast<std::uint32_t>(stored.mrr.records.size()), stored.faces,
+          static_cast<std::uint32_t>(stored.description.size()), base_crc}) {
         to = store(to, field);
     }
     assert(to == file + kMrrHeaderCrcAt);
@@ -46,7 +46,8 @@ char* store_block(char* to, const RecordBlock& block) {
 /// another.
 std::size_t most_block_bytes(const RecordList& records) {
     constexpr std::size_t kSplit = 57, kFlip = 5, kMove = 29, kFill = 7;
-    const std::size_t payload = records.splits().size() * kSplit + records.flips().size() * kFlip + records.moves().size() * kMove;
+    const std::size_t payload =
+        records.splits().size() * kSplit + records.flips().size() * kFlip + records.moves().size() * kMove;
     const std::size_t blocks = payload / (kMaxBlockBytes - kSplit - kFill) + 1;
     return payload + blocks * (kMrrBlockHeaderBytes + kFill);
 }

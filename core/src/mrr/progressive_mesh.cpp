@@ -49,8 +49,7 @@ Status check_indices_and_coordinates(const TriangleMesh& mesh) {
 
 Status check_ghosts(const TriangleMesh& mesh, std::uint32_t ghosts) {
     if (ghosts > mesh.vertex_count()) {
-        return corrupt(std::to_string(ghosts) + " ghosts among " + std::to_string(mesh.vertex_count()) +
-                       " vertices");
+        return corrupt(std::to_string(ghosts) + " ghosts among " + std::to_string(mesh.vertex_count()) + " vertices");
     }
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
         const Triangle& face = mesh.faces[f];
@@ -82,7 +81,8 @@ Status ProgressiveMesh::check(const VertexSplit& split) const {
         return corrupt("a coordinate is not finite or beyond 1e15");
     }
     if (split.steps == 0) return corrupt("0 steps; at least one face must move");
-    if (is_ghost(origin(mesh_, split.anchor))) return corrupt("at vertex " + std::to_string(origin(mesh_, split.anchor)) + ", a ghost");
+    if (is_ghost(origin(mesh_, split.anchor)))
+        return corrupt("at vertex " + std::to_string(origin(mesh_, split.anchor)) + ", a ghost");
     HalfEdge corner = split.anchor;
     HalfEdge fan_end = kNone;
     for (std::uint32_t step = 0; step < split.steps; ++step) {
@@ -129,11 +129,13 @@ Status ProgressiveMesh::check(EdgeFlip flip) const {
     }
     const HalfEdge g = twin_[h];
     for (const HalfEdge corner : {h, prev(h), g, prev(g)}) {
-        if (is_ghost(origin(mesh_, corner))) return corrupt("beside vertex " + std::to_string(origin(mesh_, corner)) + ", a ghost");
+        if (is_ghost(origin(mesh_, corner)))
+            return corrupt("beside vertex " + std::to_string(origin(mesh_, corner)) + ", a ghost");
     }
     for (const HalfEdge end : {h, g}) {
         if (!has_valence_of(4, end)) {
-            return corrupt("at vertex " + std::to_string(origin(mesh_, end)) + " of valence under 4, which would keep under 3 edges");
+            return corrupt("at vertex " + std::to_string(origin(mesh_, end)) +
+                           " of valence under 4, which would keep under 3 edges");
         }
     }
     if (are_joined(prev(h), prev(g))) {

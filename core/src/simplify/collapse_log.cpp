@@ -28,7 +28,8 @@ private:
 /// What is left of the simplified mesh, and the numbers its parts get.
 class Builder {
 public:
-    Builder(const HalfEdgeMesh& mesh, std::uint32_t ghosts) : vertex_(mesh.vertex_count(), kNone), half_edge_(mesh.half_edge_count()) {
+    Builder(const HalfEdgeMesh& mesh, std::uint32_t ghosts)
+        : vertex_(mesh.vertex_count(), kNone), half_edge_(mesh.half_edge_count()) {
         mrr_.ghosts = ghosts;
         for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
             if (mesh.outgoing(v) == kNone) continue;
@@ -114,8 +115,7 @@ MultiresMesh CollapseLog::build(const HalfEdgeMesh& mesh, std::uint32_t ghosts) 
         for (; flips_.size() > entry.first_flip; flips_.pop_back()) builder.add_flip(flips_.back());
         for (std::size_t m = entry.first_move; m < moves_.size(); ++m) builder.add_move(moves_[m]);
         moves_.resize(entry.first_move);
-        if (entry.least_wing < ghosts)
-            builder.mrr().border_splits.push_back(static_cast<std::uint32_t>(builder.mrr().levels()));
+        if (entry.least_wing < ghosts) builder.mrr().border_splits.push_back(static_cast<std::uint32_t>(builder.mrr().levels()));
         builder.add_split({entry.anchor, entry.steps, entry.kept_at, entry.removed_at}, entry.ij, entry.ji, entry.removed);
     }
     clear();

@@ -20,8 +20,8 @@ namespace vsplit {
 struct MultiresMesh {
     TriangleMesh base;  ///< closed 2-manifold, ghost faces included
     RecordList records;
-    std::uint32_t ghosts = 0;                  ///< 0: the mesh is closed
-    std::uint32_t ghost_faces = 0;             ///< faces of the base that touch a ghost; count_ghost_faces(base, ghosts)
+    std::uint32_t ghosts = 0;                       ///< 0: the mesh is closed
+    std::uint32_t ghost_faces = 0;                  ///< faces of the base that touch a ghost; count_ghost_faces(base, ghosts)
     std::vector<std::uint32_t> border_splits = {};  ///< splits, ascending, that add one visible face; all others add two
 
     /// Number of splits.

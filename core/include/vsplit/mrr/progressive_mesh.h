@@ -90,7 +90,8 @@ private:
     std::vector<Vec3> lay_;              // where the vertex of each split and move lay before
 };
 
-/// What is visible of `mrr` at a level (clamped to the last). O(records). \pre `mrr` was made by this library (asserts otherwise).
+/// What is visible of `mrr` at a level (clamped to the last). O(records). \pre `mrr` was made by this library (asserts
+/// otherwise).
 [[nodiscard]] TriangleMesh mesh_at(const MultiresMesh& mrr, std::size_t level);
 
 }  // namespace vsplit
