@@ -42,6 +42,10 @@ std::string counts(std::uint32_t vertices, std::uint32_t faces) {
     return std::to_string(vertices) + " vertices and " + std::to_string(faces) + " faces";
 }
 
+std::string counts(std::uint32_t vertices, std::uint32_t faces, std::uint32_t ghosts) {
+    return counts(vertices, faces) + " with " + std::to_string(ghosts) + " ghosts";
+}
+
 }  // namespace
 
 std::size_t base_mesh_parts(const TriangleMesh& mesh) {
@@ -49,11 +53,12 @@ std::size_t base_mesh_parts(const TriangleMesh& mesh) {
     return std::max<std::size_t>(parts, 1);  // an empty mesh is a part that says so
 }
 
-v1::BaseMesh base_mesh_part(const TriangleMesh& mesh, std::size_t part) {
+v1::BaseMesh base_mesh_part(const TriangleMesh& mesh, std::size_t part, std::uint32_t ghosts) {
     assert(part < base_mesh_parts(mesh));
     v1::BaseMesh proto;
     proto.set_vertices(mesh.vertex_count());
     proto.set_faces(mesh.face_count());
+    proto.set_ghosts(ghosts);
     const std::size_t vertex_parts = parts_of(mesh.positions.size(), kVerticesPerPart);
     const std::size_t first_vertex = std::min(part * kVerticesPerPart, mesh.positions.size());
     const std::size_t first_face = part < vertex_parts ? 0 : (part - vertex_parts) * kFacesPerPart;
@@ -75,11 +80,12 @@ Status BaseMeshAssembler::check_counts(const v1::BaseMesh& part) {
     if (!begun_) {
         vertices_ = part.vertices();
         faces_ = part.faces();
+        ghosts_ = part.ghosts();
         begun_ = true;
     }
-    if (part.vertices() != vertices_ || part.faces() != faces_) {
-        return base_error(Cause::kCorrupt, "a part announces " + counts(part.vertices(), part.faces()) +
-                                               ", the first announced " + counts(vertices_, faces_));
+    if (part.vertices() != vertices_ || part.faces() != faces_ || part.ghosts() != ghosts_) {
+        return base_error(Cause::kCorrupt, "a part announces " + counts(part.vertices(), part.faces(), part.ghosts()) +
+                                               ", the first announced " + counts(vertices_, faces_, ghosts_));
     }
     return Done{};
 }

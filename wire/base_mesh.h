@@ -15,12 +15,13 @@ inline constexpr std::size_t kMaxPartBytes = std::size_t{256} * 1024;
 /// Parts that base_mesh_part cuts a mesh into: vertices first, then faces. O(1).
 [[nodiscard]] std::size_t base_mesh_parts(const TriangleMesh& mesh);
 
-/// Part number `part` of a mesh. \pre part < base_mesh_parts(mesh). O(kMaxPartBytes).
-[[nodiscard]] v1::BaseMesh base_mesh_part(const TriangleMesh& mesh, std::size_t part);
+/// Part number `part` of a mesh whose first `ghosts` vertices are ghosts (see MultiresMesh). \pre part < base_mesh_parts(mesh).
+/// O(kMaxPartBytes).
+[[nodiscard]] v1::BaseMesh base_mesh_part(const TriangleMesh& mesh, std::size_t part, std::uint32_t ghosts = 0);
 
 /// Puts a base mesh together from its parts. What arrives is checked before it is kept: order, sizes, the limit; memory grows
-/// with the bytes that have come, never with the counts that a part claims. Indices and coordinates are for
-/// ProgressiveMesh::from_base to check.
+/// with the bytes that have come, never with the counts that a part claims. Indices, coordinates and ghosts are
+/// for ProgressiveMesh::from_base to check.
 class BaseMeshAssembler {
 public:
     explicit BaseMeshAssembler(std::uint32_t max_faces = 50'000'000) : max_faces_(max_faces) {}
@@ -35,6 +36,9 @@ public:
     /// The mesh, given away, once. \pre complete().
     [[nodiscard]] TriangleMesh take();
 
+    /// How many of its first vertices are ghosts, as the first part said.
+    [[nodiscard]] std::uint32_t ghosts() const { return ghosts_; }
+
 private:
     [[nodiscard]] Status check_counts(const v1::BaseMesh& part);
     [[nodiscard]] Status check_order(const v1::BaseMesh& part) const;
@@ -43,6 +47,7 @@ private:
     std::uint32_t max_faces_;
     std::uint32_t vertices_ = 0;
     std::uint32_t faces_ = 0;
+    std::uint32_t ghosts_ = 0;
     bool begun_ = false;
     bool complete_ = false;
     TriangleMesh mesh_;

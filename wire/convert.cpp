@@ -335,8 +335,8 @@ v1::RecordBlock to_proto(RecordBlock block) {
 Expected<RecordBlock> from_proto(v1::RecordBlock block) {
     Expected<RecordEncoding> encoding = from_proto(block.encoding());
     if (!encoding) {
-        return Error{Cause::kCorrupt, "record block of split " + std::to_string(block.first()) + ": " + encoding.error().message,
-                     ""};
+        return Error{Cause::kCorrupt,
+                     "record block from record " + std::to_string(block.first()) + " on: " + encoding.error().message, ""};
     }
     return RecordBlock{block.first(), block.count(), *encoding, std::move(*block.mutable_payload()), block.crc32c()};
 }

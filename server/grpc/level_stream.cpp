@@ -1,7 +1,6 @@
 #include "grpc/level_stream.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "grpc/replies.h"
@@ -16,24 +15,27 @@ LevelParts::LevelParts(service::ResolutionPlan plan, RecordEncoding encoding)
     : plan_(std::move(plan)),
       encoding_(encoding),
       base_parts_(plan_.with_base ? wire::base_mesh_parts(plan_.representation->mrr().base) : 0),
-      split_(plan_.first_split) {}
+      record_(plan_.first_record) {}
 
 bool LevelParts::next(v1::ProgressiveEvent& event) {
     if (base_part_ < base_parts_) {
-        *event.mutable_base_mesh() = wire::base_mesh_part(plan_.representation->mrr().base, base_part_++);
+        const MultiresMesh& mrr = plan_.representation->mrr();
+        *event.mutable_base_mesh() = wire::base_mesh_part(mrr.base, base_part_++, mrr.ghosts);
         return true;
     }
-    if (split_ == plan_.last_split) return false;
+    if (record_ == plan_.last_record) return false;
     next_block(event);
     return true;
 }
 
 void LevelParts::next_block(v1::ProgressiveEvent& event) {
-    const std::size_t count = std::min<std::size_t>(splits_per_block(encoding_), plan_.last_split - split_);
-    const std::span<const VertexSplit> splits(plan_.representation->mrr().splits);
+    const RecordList& records = plan_.representation->mrr().records;
+    // No record of any encoding takes less than a byte of its block.
+    const std::size_t most = std::min(kMaxBlockBytes, plan_.last_record - record_);
+    const std::size_t count = records_that_fit(records.slice(record_, most), encoding_);
     *event.mutable_record_block() =
-        wire::to_proto(encode_block(splits.subspan(split_, count), static_cast<std::uint32_t>(split_), encoding_));
-    split_ += count;
+        wire::to_proto(encode_block(records.slice(record_, count), static_cast<std::uint32_t>(record_), encoding_));
+    record_ += count;
 }
 
 Expected<std::unique_ptr<MessageSource<v1::ProgressiveEvent>>> LevelSource::make(service::MeshingService& service,

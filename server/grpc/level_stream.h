@@ -27,7 +27,7 @@ private:
     const RecordEncoding encoding_;
     std::size_t base_part_ = 0;
     std::size_t base_parts_ = 0;
-    std::size_t split_ = 0;
+    std::size_t record_ = 0;
 };
 
 /// SetResolution: parts, and last the representation, whose figures an errand works out meanwhile.

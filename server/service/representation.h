@@ -25,13 +25,13 @@ public:
     [[nodiscard]] const MethodResult& result() const { return result_; }
     [[nodiscard]] const MultiresMesh& mrr() const { return result_.mrr; }
 
-    /// The level to use for `faces`: the nearest that exists; 0 means the resolution it was made for. O(1).
+    /// The level to use for `faces`: the nearest that exists; 0 means the resolution it was made for. O(log(levels)).
     [[nodiscard]] std::size_t level_for(std::uint32_t faces) const;
 
-    /// Heavy unless cached: O(level). \pre level <= mrr().splits.size().
+    /// Heavy unless cached: O(records up to it). \pre level <= mrr().levels().
     [[nodiscard]] std::shared_ptr<const TriangleMesh> mesh(std::size_t level) const;
 
-    /// Heavy: O(level + faces log faces). \pre as for `mesh`.
+    /// Heavy: O(records up to it + faces log faces). \pre as for `mesh`.
     [[nodiscard]] Quality quality(std::size_t level) const;
 
 private:

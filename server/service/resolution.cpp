@@ -14,15 +14,15 @@ Expected<std::size_t> level_held(const MultiresMesh& mrr, std::uint32_t faces_he
                  "faces_held is " + std::to_string(faces_held) +
                      ", which is no resolution of this representation; the nearest is " + std::to_string(mrr.faces_at(level)) +
                      " (it has " + std::to_string(mrr.faces_min()) + " to " + std::to_string(mrr.faces_max()) +
-                     " in steps of 2; 0 means that nothing is held)",
+                     (mrr.border_splits.empty() ? " in steps of 2" : " in steps of 1 or 2") + "; 0 means that nothing is held)",
                  "faces_held"};
 }
 
 Status check_resume(const MultiresMesh& mrr, std::uint32_t resume_from) {
-    if (resume_from <= mrr.splits.size()) return Done{};
+    if (resume_from <= mrr.records.size()) return Done{};
     return Error{Cause::kInvalidOption,
                  "resume_from is " + std::to_string(resume_from) + "; this representation has " +
-                     std::to_string(mrr.splits.size()) + " records, so at most that is accepted",
+                     std::to_string(mrr.records.size()) + " records, so at most that is accepted",
                  "resume_from"};
 }
 
@@ -38,17 +38,18 @@ Expected<ResolutionPlan> plan_resolution(const SessionSnapshot& session, const R
     if (request.faces_held != 0) {
         const Expected<std::size_t> held = level_held(mrr, request.faces_held);
         if (!held) return held.error();
-        plan.first_split = *held;
+        plan.first_record = mrr.record_of_level(*held);
     }
     // A record comes after the whole base mesh, so who has one has the base mesh too.
     plan.with_base = request.faces_held == 0 && request.resume_from == 0;
-    plan.first_split = std::max<std::size_t>(plan.first_split, request.resume_from);
-    plan.last_split = std::max(plan.first_split, plan.level);
+    plan.first_record = std::max<std::size_t>(plan.first_record, request.resume_from);
+    plan.last_record = std::max(plan.first_record, plan.last_record);
     return plan;
 }
 
 ResolutionPlan plan_from_nothing(SessionSnapshot::RepresentationPointer representation, std::size_t level) {
-    return {std::move(representation), level, true, 0, level};
+    const std::size_t records = representation->mrr().record_of_level(level);
+    return {std::move(representation), level, true, 0, records};
 }
 
 }  // namespace vsplit::service

@@ -13,23 +13,23 @@ struct ResolutionRequest {
     std::string representation;     ///< empty: the session's newest
     std::uint32_t faces_held = 0;   ///< 0: holds nothing
     std::uint32_t faces = 0;        ///< wanted; the nearest that exists is taken
-    std::uint32_t resume_from = 0;  ///< number of the first record still missing; 0: all
+    std::uint32_t resume_from = 0;  ///< number of the first record still missing, also between two splits; 0: all
 };
 
 /// What is to be sent for it.
 struct ResolutionPlan {
     SessionSnapshot::RepresentationPointer representation;
-    std::size_t level = 0;        ///< where the client will stand
-    bool with_base = false;       ///< the base mesh comes first
-    std::size_t first_split = 0;  ///< then splits [first_split, last_split)
-    std::size_t last_split = 0;
+    std::size_t level = 0;         ///< where the client will stand
+    bool with_base = false;        ///< the base mesh comes first
+    std::size_t first_record = 0;  ///< then records [first_record, last_record)
+    std::size_t last_record = 0;
 };
 
 /// \return NOT_FOUND or NOT_READY (representation); INVALID_OPTION when `faces_held` is no resolution of it, naming the nearest,
-/// or when `resume_from` is beyond its last record. O(1).
+/// or when `resume_from` is beyond its last record. O(log(records)).
 [[nodiscard]] Expected<ResolutionPlan> plan_resolution(const SessionSnapshot& session, const ResolutionRequest& request);
 
-/// All that leads from nothing to a level. O(1).
+/// All that leads from nothing to a level. O(log(records)).
 [[nodiscard]] ResolutionPlan plan_from_nothing(SessionSnapshot::RepresentationPointer representation, std::size_t level);
 
 }  // namespace vsplit::service

@@ -82,6 +82,10 @@ TEST(BaseMeshTest, RefusesPartsThatDisagreeOnTheWhole) {
     v1::BaseMesh other = base_mesh_part(test::tetrahedron(), 1);
     other.set_faces(5);
     EXPECT_EQ(assembler.add(other).error().cause, Cause::kCorrupt);
+    BaseMeshAssembler with_ghosts;
+    ASSERT_TRUE(with_ghosts.add(base_mesh_part(test::tetrahedron(), 0, 1)));
+    EXPECT_EQ(with_ghosts.ghosts(), 1U);
+    EXPECT_EQ(with_ghosts.add(base_mesh_part(test::tetrahedron(), 1)).error().cause, Cause::kCorrupt);
 }
 
 TEST(BaseMeshTest, RefusesAStreamOfNothing) {

@@ -195,18 +195,16 @@ TEST(ConvertTest, RepairsOfLaterVersionsAreUnsupported) {
 }
 
 TEST(ConvertTest, RecordBlocksSurviveTheWay) {
-    const std::array<VertexSplit, 2> splits{VertexSplit{1, 2, {0, 1, 2}, {3, 4, 5}},
-                                            VertexSplit{6, 1, {-1, 0, 1}, {0.1, 0.2, 0.3}}};
-    const RecordBlock block = encode_block(splits, 41, RecordEncoding::kFloat64);
+    const RecordList records{VertexSplit{1, 2, {0, 1, 2}, {3, 4, 5}}, EdgeFlip{8}, VertexMove{6, {0.1, 0.2, 0.3}}};
+    const RecordBlock block = encode_block(records, 41, RecordEncoding::kFloat64);
     const v1::RecordBlock message = to_proto(block);
     EXPECT_EQ(message.first(), 41U);
-    EXPECT_EQ(message.count(), 2U);
+    EXPECT_EQ(message.count(), 3U);
     const Expected<RecordBlock> back = from_proto(message);
     ASSERT_TRUE(back);
-    const Expected<std::vector<VertexSplit>> decoded = decode_block(*back);
+    const Expected<RecordList> decoded = decode_block(*back);
     ASSERT_TRUE(decoded);
-    EXPECT_EQ((*decoded)[0], splits[0]);
-    EXPECT_EQ((*decoded)[1], splits[1]);
+    EXPECT_EQ(*decoded, records);
 }
 
 TEST(ConvertTest, BlocksOfUnknownEncodingAreCorrupt) {

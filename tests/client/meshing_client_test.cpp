@@ -187,7 +187,7 @@ void send_mrr(const MultiresMesh& mrr, test::FakeServer::EventWriter& writer) {
         writer.Write(event);
     }
     v1::ProgressiveEvent block;
-    *block.mutable_record_block() = wire::to_proto(encode_block(mrr.splits, 0, RecordEncoding::kFloat64));
+    *block.mutable_record_block() = wire::to_proto(encode_block(mrr.records, 0, RecordEncoding::kFloat64));
     writer.Write(block);
 }
 
@@ -237,7 +237,9 @@ TEST_F(MeshingClientTest, AHandlersErrorEndsTheCall) {
     };
     MeshingClient client = connected();
     EventHandlers handlers;
-    handlers.on_base_mesh = [](const TriangleMesh&) -> Status { return Error{Cause::kFileAccess, "the disk is full", ""}; };
+    handlers.on_base_mesh = [](const TriangleMesh&, std::uint32_t) -> Status {
+        return Error{Cause::kFileAccess, "the disk is full", ""};
+    };
     const auto made = client.improve(v1::ImproveRequest(), handlers);
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().cause, Cause::kFileAccess);

@@ -12,7 +12,7 @@ MethodResult a_result(const MethodOptions& options) {
     MethodResult result;
     result.options = options;
     result.mrr.base = test::tetrahedron();
-    result.mrr.splits.resize(10);
+    for (int split = 0; split < 10; ++split) result.mrr.records.push_back(VertexSplit{});
     result.faces = 12;
     result.quality.faces = 12;
     result.quality.stretch_mean = 0.75;

@@ -93,9 +93,9 @@ TEST(ControlTest, AllBoundsHoldOnEveryFaceOfAMeshThatMeetsThem) {
     options.faces = 400;
     const MethodResult result = controlled(test::icosphere(3), options);
     EXPECT_TRUE(result.bounds_satisfied());
-    EXPECT_GT(result.mrr.splits.size(), 500U);
+    EXPECT_GT(result.mrr.levels(), 500U);
     expect_report_is_true(result, options);
-    for (std::size_t level = 0; level <= result.mrr.splits.size(); level += 97) {
+    for (std::size_t level = 0; level <= result.mrr.levels(); level += 97) {
         EXPECT_TRUE(find_violations(mesh_at(result.mrr, level), default_options(test::icosphere(3), options)).empty()) << level;
     }
 }

@@ -36,7 +36,7 @@ MethodResult improved(const TriangleMesh& mesh, const ImproveOptions& options) {
 
 void expect_topology_kept(const TriangleMesh& source, const MultiresMesh& mrr) {
     const MeshReport before = inspect(source);
-    for (const std::size_t level : {std::size_t{0}, mrr.splits.size() / 2, mrr.splits.size()}) {
+    for (const std::size_t level : {std::size_t{0}, mrr.levels() / 2, mrr.levels()}) {
         const MeshReport after = inspect(mesh_at(mrr, level));
         EXPECT_TRUE(after.closed) << "level " << level;
         EXPECT_EQ(after.components, before.components) << "level " << level;

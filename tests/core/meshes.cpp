@@ -222,6 +222,36 @@ TriangleMesh joined(const TriangleMesh& left, const TriangleMesh& right, const V
     return mesh;
 }
 
+TriangleMesh punctured(const TriangleMesh& mesh, const std::vector<std::uint32_t>& at) {
+    TriangleMesh open;
+    std::vector<std::uint32_t> number(mesh.positions.size(), 0);
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        if (std::find(at.begin(), at.end(), v) != at.end()) continue;
+        number[v] = open.vertex_count();
+        open.positions.push_back(mesh.positions[v]);
+    }
+    for (const Triangle& f : mesh.faces) {
+        if (std::find_first_of(f.begin(), f.end(), at.begin(), at.end()) != f.end()) continue;
+        open.faces.push_back({number[f[0]], number[f[1]], number[f[2]]});
+    }
+    return open;
+}
+
+TriangleMesh square(std::uint32_t cells) {
+    TriangleMesh mesh;
+    for (std::uint32_t y = 0; y <= cells; ++y) {
+        for (std::uint32_t x = 0; x <= cells; ++x) mesh.positions.emplace_back(x, y, 0);
+    }
+    for (std::uint32_t y = 0; y < cells; ++y) {
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            const std::uint32_t corner = y * (cells + 1) + x, above = corner + cells + 1;
+            mesh.faces.push_back({corner, corner + 1, above + 1});
+            mesh.faces.push_back({corner, above + 1, above});
+        }
+    }
+    return mesh;
+}
+
 std::vector<NamedMesh> small_meshes() {
     return {
         {"tetrahedron", tetrahedron()},

@@ -44,6 +44,13 @@ namespace vsplit::test {
 /// Both meshes in one, `right` moved by `offset`: two components when they do not touch.
 [[nodiscard]] TriangleMesh joined(const TriangleMesh& left, const TriangleMesh& right, const Vec3& offset);
 
+/// The mesh without the faces at these vertices: an open boundary around each. \pre no two of them have a face in common or
+/// faces that touch.
+[[nodiscard]] TriangleMesh punctured(const TriangleMesh& mesh, const std::vector<std::uint32_t>& at);
+
+/// A flat square of 2 * cells * cells faces, one boundary.
+[[nodiscard]] TriangleMesh square(std::uint32_t cells);
+
 /// A mesh and what a test calls it.
 struct NamedMesh {
     std::string name;

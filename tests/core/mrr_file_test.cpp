@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/core/edited_mrr.h"
 #include "tests/core/meshes.h"
 #include "tests/core/random.h"
 #include "vsplit/mrr/progressive_mesh.h"
@@ -17,19 +18,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `count` splits that fit `base`: any corner of the mesh as it grows, one step, points near by.
+/// `count` splits that fit `base`: any corner of the mesh as it grows, one step, points near by; and moves before some of them.
 MultiresMesh grown(const TriangleMesh& base, std::size_t count) {
     Random random(5);
     MultiresMesh mrr{base, {}};
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t corners = 3 * mrr.faces_at(i);
         const auto point = [&] { return Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
-        mrr.splits.push_back({random.below(corners), 1 + random.below(2), point(), point()});
+        if (random.below(4) == 0) mrr.records.push_back(VertexMove{random.below(base.vertex_count()), point()});
+        mrr.records.push_back(VertexSplit{random.below(corners), 1 + random.below(2), point(), point()});
     }
     return mrr;
 }
 
-StoredMrr example() { return {grown(tetrahedron(), 3), 8, R"({"method":"IMPROVE"})"}; }
+/// As docs/format.md has them.
+TriangleMesh documented_base() {
+    return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+}
+RecordList documented_records() {
+    return {VertexSplit{8, 2, {0, 0, 1}, {0.5, 0.5, 0.5}}, EdgeFlip{3}, VertexMove{2, {0, 0.75, 0}},
+            VertexSplit{0, 1, {0, 0, 1}, {0, 0.5, 0.5}}};
+}
+
+/// Three splits, a flip and a move.
+StoredMrr example() {
+    MultiresMesh mrr{documented_base(), documented_records()};
+    mrr.records.push_back(VertexSplit{5, 1, {0, 0, 0}, {1, 1, 1}});
+    return {mrr, 8, R"({"method":"IMPROVE"})"};
+}
 
 Expected<StoredMrr> decode(const std::string& bytes) { return decode_mrr(std::as_bytes(std::span(bytes))); }
 
@@ -51,7 +67,7 @@ std::uint32_t crc_of(const std::string& bytes, std::size_t at, std::size_t count
 /// The header's checksum fits again: a file that lies, not one that was damaged.
 std::string with_field(std::string bytes, std::size_t at, std::uint32_t value) {
     put(bytes, at, value);
-    put(bytes, 36, crc_of(bytes, 0, 36));
+    put(bytes, 44, crc_of(bytes, 0, 44));
     return bytes;
 }
 
@@ -60,7 +76,7 @@ bool operator==(const StoredMrr& left, const StoredMrr& right) {
 }
 
 TEST(MrrFileTest, DecodesWhatItEncoded) {
-    for (const std::size_t splits : {0, 1, 3, 4681, 4682, 20000}) {  // 4681 fill a block
+    for (const std::size_t splits : {0, 1, 3, 4599, 20000}) {  // some 4000 fill a block
         const StoredMrr stored{grown(torus(24, 12), splits), 700, "made by a test"};
         const Expected<StoredMrr> decoded = decode(encode_mrr(stored));
         ASSERT_TRUE(decoded) << decoded.error().message;
@@ -95,20 +111,35 @@ std::string documented_bytes(const fs::path& page) {
 }
 
 TEST(MrrFileTest, WorkedExampleOfTheFormatPageIsWhatIsWritten) {
-    const TriangleMesh base{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-    const StoredMrr stored{{base, {{8, 2, {0, 0, 1}, {0.5, 0.5, 0.5}}, {0, 1, {0, 0, 0}, {0.5, 0.25, -0.25}}}}, 8, "{}"};
+    const StoredMrr stored{{documented_base(), documented_records()}, 8, "{}"};
     const std::string bytes = documented_bytes(data_file("../../docs/format.md"));
     EXPECT_EQ(bytes, encode_mrr(stored));
     const Expected<StoredMrr> decoded = decode(bytes);
     ASSERT_TRUE(decoded) << decoded.error().message;
-    const TriangleMesh finest = mesh_at(decoded->mrr, 2);
-    // As the page draws them, level by level.
-    EXPECT_EQ(mesh_at(decoded->mrr, 1).faces,
-              (std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 4}, {2, 0, 4}, {3, 4, 0}, {4, 3, 1}}));
-    EXPECT_EQ(finest.faces,
-              (std::vector<Triangle>{{5, 2, 1}, {0, 1, 3}, {1, 2, 4}, {2, 0, 4}, {3, 4, 0}, {4, 3, 1}, {0, 5, 1}, {5, 0, 2}}));
-    EXPECT_EQ(finest.positions[4], Vec3(0.5, 0.5, 0.5));
-    EXPECT_EQ(finest.positions[5], Vec3(0.5, 0.25, -0.25));
+    // As the page draws them, record by record.
+    const std::vector<std::vector<Triangle>> drawn{
+        {{0, 2, 1}, {0, 1, 3}, {1, 2, 4}, {2, 0, 4}, {3, 4, 0}, {4, 3, 1}},
+        {{3, 0, 2}, {3, 2, 1}, {1, 2, 4}, {2, 0, 4}, {3, 4, 0}, {4, 3, 1}},
+        {{3, 0, 2}, {3, 2, 1}, {1, 2, 4}, {2, 0, 4}, {3, 4, 0}, {4, 3, 1}},
+        {{5, 0, 2}, {3, 2, 1}, {1, 2, 4}, {2, 0, 4}, {3, 4, 0}, {4, 3, 1}, {3, 5, 2}, {5, 3, 0}}};
+    auto mesh = ProgressiveMesh::from_base(decoded->mrr.base);
+    ASSERT_TRUE(mesh);
+    for (std::size_t n = 0; n < drawn.size(); ++n) {
+        ASSERT_TRUE(mesh->refine(decoded->mrr.records.slice(n, 1)));
+        EXPECT_EQ(mesh->mesh().faces, drawn[n]) << n;
+    }
+    EXPECT_EQ(mesh->mesh().positions[2], Vec3(0, 0.75, 0));
+    EXPECT_EQ(mesh->mesh().positions[5], Vec3(0, 0.5, 0.5));
+}
+
+TEST(MrrFileTest, OpenMeshesComeBackWithTheirGhosts) {
+    for (const TriangleMesh& mesh : {square(12), punctured(torus(24, 12), {0, 40, 80})}) {
+        const StoredMrr stored{edited_mrr(mesh, 100, 4).mrr, 30, ""};
+        ASSERT_FALSE(stored.mrr.border_splits.empty());
+        const Expected<StoredMrr> decoded = decode(encode_mrr(stored));
+        ASSERT_TRUE(decoded) << decoded.error().message;
+        EXPECT_TRUE(*decoded == stored);
+    }
 }
 
 TEST(MrrFileTest, CutAnywhereItIsTruncated) {
@@ -145,51 +176,68 @@ TEST(MrrFileTest, NewerVersionIsUnsupportedWhateverFollows) {
 
 TEST(MrrFileTest, HeadersThatLie) {
     const std::string bytes = encode_mrr(example());
-    expect_error(with_field(bytes, 12, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 40");  // vertices
-    expect_error(with_field(bytes, 16, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 40");  // faces
-    expect_error(with_field(bytes, 28, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 40");  // description
-    expect_error(with_field(bytes, 20, 0xFFFFFFFF), Cause::kCorrupt, "byte 20");         // splits
-    expect_error(with_field(bytes, 20, 4), Cause::kTruncatedInput, "after 3 of 4 splits");
-    expect_error(with_field(bytes, 20, 2), Cause::kCorrupt, "a block has splits 0 and on, 3 in all");
-    expect_error(with_field(bytes, 20, 0), Cause::kCorrupt, "bytes follow the last of 0 splits");
-    expect_error(with_field(bytes, 12, 3), Cause::kCorrupt, "byte 40: the checksum");
-    expect_error(bytes + "x", Cause::kCorrupt, "1 bytes follow the last of 3 splits");
+    expect_error(with_field(bytes, 12, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 48");  // vertices
+    expect_error(with_field(bytes, 16, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 48");  // faces
+    expect_error(with_field(bytes, 36, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 48");  // description
+    expect_error(with_field(bytes, 20, 5), Cause::kCorrupt, "5 ghosts among 4 vertices");
+    expect_error(with_field(bytes, 20, 2), Cause::kCorrupt, "joins two ghosts");
+    expect_error(with_field(bytes, 24, 0xFFFFFFFF), Cause::kCorrupt, "byte 24");  // splits
+    expect_error(with_field(bytes, 24, 6), Cause::kCorrupt, "byte 24: 6 splits among 5 records");
+    expect_error(with_field(bytes, 24, 4), Cause::kCorrupt, "byte 24: 3 of 5 records are splits, not 4");
+    expect_error(with_field(bytes, 24, 2), Cause::kCorrupt, "more splits than the 2 announced");
+    expect_error(with_field(bytes, 28, 0xFFFFFFFF), Cause::kTruncatedInput, "after 5 of 4294967295 records");
+    expect_error(with_field(bytes, 28, 6), Cause::kTruncatedInput, "after 5 of 6 records");
+    expect_error(with_field(bytes, 28, 4), Cause::kCorrupt, "a block has records 0 and on, 5 in all");
+    expect_error(with_field(with_field(bytes, 24, 0), 28, 0), Cause::kCorrupt, "bytes follow the last of 0 records");
+    expect_error(with_field(bytes, 12, 3), Cause::kCorrupt, "byte 48: the checksum");
+    expect_error(bytes + "x", Cause::kCorrupt, "1 bytes follow the last of 5 records");
 }
 
 TEST(MrrFileTest, BaseMeshMustBeClosedAndSound) {
     StoredMrr open = example();
     open.mrr.base.faces.pop_back();
-    open.mrr.splits.clear();
-    expect_error(encode_mrr(open), Cause::kCorrupt, "byte 40: the base mesh");
+    open.mrr.records.clear();
+    expect_error(encode_mrr(open), Cause::kCorrupt, "byte 48: the base mesh");
     StoredMrr out_of_range = example();
     out_of_range.mrr.base.faces[0][0] = 99;
-    expect_error(encode_mrr(out_of_range), Cause::kCorrupt, "byte 40: the base mesh");
+    expect_error(encode_mrr(out_of_range), Cause::kCorrupt, "byte 48: the base mesh");
     StoredMrr not_finite = example();
     not_finite.mrr.base.positions[0].x() = std::numeric_limits<double>::quiet_NaN();
-    expect_error(encode_mrr(not_finite), Cause::kCorrupt, "byte 40: the base mesh");
-    expect_error(encode_mrr(StoredMrr()), Cause::kCorrupt, "byte 40: the base mesh");
+    expect_error(encode_mrr(not_finite), Cause::kCorrupt, "byte 48: the base mesh");
+    expect_error(encode_mrr(StoredMrr()), Cause::kCorrupt, "byte 48: the base mesh");
     StoredMrr too_large = example();  // finite, but its squares are not
     too_large.mrr.base.positions[0].x() = 1e300;
-    expect_error(encode_mrr(too_large), Cause::kCorrupt, "byte 40: the base mesh");
+    expect_error(encode_mrr(too_large), Cause::kCorrupt, "byte 48: the base mesh");
 }
 
-TEST(MrrFileTest, SplitsMustFitTheMesh) {
-    const std::size_t block_at = 40 + 4 * 24 + 4 * 12 + example().description.size();
-    StoredMrr beyond = example();
-    beyond.mrr.splits[1].anchor = 18;  // level 1 has 6 faces, 18 corners
-    expect_error(encode_mrr(beyond), Cause::kCorrupt, "byte " + std::to_string(block_at) + ": vertex split 1");
-    StoredMrr around = example();
-    around.mrr.splits[2].steps = 0xFFFFFFFF;
-    expect_error(encode_mrr(around), Cause::kCorrupt, "byte " + std::to_string(block_at) + ": vertex split 2");
+TEST(MrrFileTest, RecordsMustFitTheMesh) {
+    const auto refused = [](const RecordList& records, const std::string& what) {
+        const StoredMrr stored{{documented_base(), records}, 8, ""};
+        const std::size_t block_at = 48 + 4 * 24 + 4 * 12;
+        expect_error(encode_mrr(stored), Cause::kCorrupt, "byte " + std::to_string(block_at) + ": " + what);
+    };
+    const VertexSplit good{0, 1, {0, 0, 0}, {1, 1, 1}};
+    refused({good, VertexSplit{18, 1, {0, 0, 0}, {1, 1, 1}}, good}, "record 1, vertex split: anchor 18");
+    refused({good, good, VertexSplit{0, 0xFFFFFFFF, {0, 0, 0}, {1, 1, 1}}}, "record 2, vertex split");
+    refused({EdgeFlip{0}, good}, "record 0, edge flip: at vertex");
+    refused({VertexMove{4, {0, 0, 0}}, good}, "record 0, vertex move: 4 is no vertex");
+}
+
+TEST(MrrFileTest, EditsStandBeforeASplit) {
+    expect_error(encode_mrr({{documented_base(), {VertexMove{2, {0, 2, 0}}}}, 8, ""}), Cause::kCorrupt, "is no split");
+    RecordList records = documented_records();
+    records.push_back(VertexMove{2, {0, 2, 0}});
+    expect_error(encode_mrr({{documented_base(), records}, 8, ""}), Cause::kCorrupt, "the last of 5 records is no split");
 }
 
 TEST(MrrFileTest, BlocksMustFollowEachOther) {
-    StoredMrr stored{grown(tetrahedron(), 5000), 4, ""};  // two blocks
-    std::string bytes = encode_mrr(stored);
-    const std::size_t second = 40 + 4 * 24 + 4 * 12 + 20 + 4681 * std::size_t{56};
+    RecordList records;
+    for (int n = 0; n < 5000; ++n) records.push_back(VertexSplit{0, 1, {0, 0, 0}, {1, 1, 1}});
+    std::string bytes = encode_mrr({{tetrahedron(), records}, 4, ""});  // two blocks
+    const std::size_t second = 48 + 4 * 24 + 4 * 12 + 20 + kMaxBlockBytes;
     put(bytes, second, 0);
-    expect_error(bytes, Cause::kCorrupt, "byte " + std::to_string(second) + ": a block has splits 0");
-    put(bytes, second, 4681);
+    expect_error(bytes, Cause::kCorrupt, "byte " + std::to_string(second) + ": a block has records 0");
+    put(bytes, second, 4599);
     EXPECT_TRUE(decode(bytes));
     put(bytes, second + 4, 0);
     expect_error(bytes, Cause::kCorrupt, "byte " + std::to_string(second));
@@ -219,11 +267,14 @@ TEST(MrrFileTest, BrokenFilesSayWhatIsWrongAndWhere) {
     for (const auto& [name, cause, place] :
          {BrokenFile{"mrr_of_version_2.vsplit", Cause::kUnsupported, "byte 8"},
           BrokenFile{"mrr_cut_in_header.vsplit", Cause::kTruncatedInput, "byte 30"},
-          BrokenFile{"mrr_cut_in_block.vsplit", Cause::kTruncatedInput, "byte 288: the file ends after 0 of 2 splits"},
-          BrokenFile{"mrr_changed_header.vsplit", Cause::kCorrupt, "byte 36"},
-          BrokenFile{"mrr_changed_position.vsplit", Cause::kCorrupt, "byte 40"},
-          BrokenFile{"mrr_changed_split.vsplit", Cause::kCorrupt, "byte 186: record block from split 0 on"},
-          BrokenFile{"mrr_open_base.vsplit", Cause::kCorrupt, "byte 40: the base mesh"},
+          BrokenFile{"mrr_cut_in_block.vsplit", Cause::kTruncatedInput, "byte 330: the file ends after 0 of 4 records"},
+          BrokenFile{"mrr_changed_header.vsplit", Cause::kCorrupt, "byte 44"},
+          BrokenFile{"mrr_changed_position.vsplit", Cause::kCorrupt, "byte 48"},
+          BrokenFile{"mrr_changed_split.vsplit", Cause::kCorrupt, "byte 194: record block from record 0 on"},
+          BrokenFile{"mrr_open_base.vsplit", Cause::kCorrupt, "byte 48: the base mesh"},
+          BrokenFile{"mrr_ghosts_side_by_side.vsplit", Cause::kCorrupt, "byte 48: the base mesh: face 0 joins two ghosts"},
+          BrokenFile{"mrr_flips_twice.vsplit", Cause::kCorrupt, "byte 194: record 2, edge flip: at vertex 0 of valence under 4"},
+          BrokenFile{"mrr_ends_with_a_move.vsplit", Cause::kCorrupt, "the last of 3 records is no split"},
           BrokenFile{"mrr_sent_as_text.vsplit", Cause::kUnknownFormat, "byte 0"}}) {
         SCOPED_TRACE(name);
         const Expected<StoredMrr> result = load_mrr(data_file("broken/" + name));

@@ -10,21 +10,33 @@
 namespace vsplit::test {
 namespace {
 
-std::vector<VertexSplit> random_splits(std::size_t count, std::uint64_t seed) {
+/// Records of all kinds, the splits first among equals.
+RecordList random_records(std::size_t count, std::uint64_t seed) {
     Random random(seed);
-    std::vector<VertexSplit> splits(count);
+    RecordList records;
     const auto point = [&] { return Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
-    for (VertexSplit& split : splits) split = {random.below(1U << 31U), random.below(100), point(), point()};
-    return splits;
+    while (records.size() < count) {
+        const std::uint32_t kind = random.below(4);
+        if (kind < 2) records.push_back(VertexSplit{random.below(1U << 31U), random.below(100), point(), point()});
+        if (kind == 2) records.push_back(EdgeFlip{random.below(1U << 31U)});
+        if (kind == 3) records.push_back(VertexMove{random.below(1U << 31U), point()});
+    }
+    return records;
 }
 
-RecordBlock block_of(std::size_t count) { return encode_block(random_splits(count, 3), 17, RecordEncoding::kFloat64); }
+RecordList splits(std::size_t count) {
+    RecordList records;
+    for (std::size_t n = 0; n < count; ++n) records.push_back(VertexSplit{1, 1, Vec3::Zero(), Vec3::Zero()});
+    return records;
+}
+
+RecordBlock block_of(std::size_t count) { return encode_block(random_records(count, 3), 17, RecordEncoding::kFloat64); }
 
 void expect_corrupt(const RecordBlock& block, const std::string& what) {
-    const Expected<std::vector<VertexSplit>> splits = decode_block(block);
-    ASSERT_FALSE(splits) << what;
-    EXPECT_EQ(splits.error().cause, Cause::kCorrupt) << what;
-    EXPECT_NE(splits.error().message.find(std::to_string(block.first)), std::string::npos) << splits.error().message;
+    const Expected<RecordList> records = decode_block(block);
+    ASSERT_FALSE(records) << what;
+    EXPECT_EQ(records.error().cause, Cause::kCorrupt) << what;
+    EXPECT_NE(records.error().message.find(std::to_string(block.first)), std::string::npos) << records.error().message;
 }
 
 TEST(RecordBlockTest, Crc32cOfTheCheckString) {
@@ -37,45 +49,64 @@ TEST(RecordBlockTest, Crc32cOfTheCheckString) {
 }
 
 TEST(RecordBlockTest, GoldenBytes) {
-    const std::vector<VertexSplit> splits = {{1, 2, {0.5, 0, 0}, {-2, 0, 1}}, {0x01020304, 3, {0, 0, 0}, {0, 0, 1}}};
-    const RecordBlock block = encode_block(splits, 5, RecordEncoding::kFloat64);
+    const RecordList records{VertexSplit{1, 2, {0.5, 0, 0}, {-2, 0, 1}}, EdgeFlip{0x0A0B0C0D}, VertexMove{7, {0, -2, 1}},
+                             VertexSplit{0x01020304, 3, {0, 0, 0}, {0, 0, 1}}};
+    const RecordBlock block = encode_block(records, 5, RecordEncoding::kFloat64);
     std::string expected;
+    expected.append("\0\x01\x02\0", 4).append(4, '\0');                                          // kinds
     expected.append("\x01\0\0\0\x04\x03\x02\x01", 8);                                            // anchors
     expected.append("\x02\0\0\0\x03\0\0\0", 8);                                                  // steps
     expected.append("\0\0\0\0\0\0\xE0\x3F", 8).append(40, '\0');                                 // kept
     expected.append("\0\0\0\0\0\0\0\xC0", 8).append(8, '\0').append("\0\0\0\0\0\0\xF0\x3F", 8);  // added
     expected.append(16, '\0').append("\0\0\0\0\0\0\xF0\x3F", 8);
+    expected.append(8, '\0').append("\0\0\0\0\0\0\0\xC0", 8).append("\0\0\0\0\0\0\xF0\x3F", 8);  // position
+    expected.append("\x0D\x0C\x0B\x0A", 4);                                                      // half-edge
+    expected.append("\x07\0\0\0", 4);                                                            // vertex
     EXPECT_EQ(block.payload, expected);
     EXPECT_EQ(block.first, 5U);
-    EXPECT_EQ(block.count, 2U);
+    EXPECT_EQ(block.count, 4U);
     EXPECT_EQ(block.crc32c, crc32c(std::as_bytes(std::span(expected))));
 }
 
 TEST(RecordBlockTest, DecodesWhatItEncoded) {
-    for (const std::size_t count :
-         {std::size_t{0}, std::size_t{1}, std::size_t{1000}, std::size_t{splits_per_block(RecordEncoding::kFloat64)}}) {
-        const std::vector<VertexSplit> splits = random_splits(count, count);
-        const Expected<std::vector<VertexSplit>> decoded = decode_block(encode_block(splits, 3, RecordEncoding::kFloat64));
+    for (const std::size_t count : {0, 1, 7, 8, 9, 1000, 5000}) {
+        const RecordList records = random_records(count, count);
+        const Expected<RecordList> decoded = decode_block(encode_block(records, 3, RecordEncoding::kFloat64));
         ASSERT_TRUE(decoded);
-        EXPECT_EQ(*decoded, splits);
+        EXPECT_EQ(*decoded, records);
     }
 }
 
 TEST(RecordBlockTest, KeepsEveryBitOfADouble) {
-    const std::vector<VertexSplit> splits = {
-        {0, 1, {-0.0, 5e-324, std::numeric_limits<double>::max()}, {std::nan(""), -1.0 / 3, 0}}};
-    const Expected<std::vector<VertexSplit>> decoded = decode_block(encode_block(splits, 0, RecordEncoding::kFloat64));
+    const RecordList records{VertexSplit{0, 1, {-0.0, 5e-324, std::numeric_limits<double>::max()}, {std::nan(""), -1.0 / 3, 0}},
+                             VertexMove{0, {-0.0, 5e-324, 0}}};
+    const Expected<RecordList> decoded = decode_block(encode_block(records, 0, RecordEncoding::kFloat64));
     ASSERT_TRUE(decoded);
-    EXPECT_TRUE(std::signbit((*decoded)[0].kept.x()));
-    EXPECT_EQ((*decoded)[0].kept, splits[0].kept);
-    EXPECT_TRUE(std::isnan((*decoded)[0].added.x()));
-    EXPECT_EQ((*decoded)[0].added.y(), -1.0 / 3);
+    const VertexSplit& split = decoded->splits()[0];
+    EXPECT_TRUE(std::signbit(split.kept.x()));
+    EXPECT_EQ(split.kept, records.splits()[0].kept);
+    EXPECT_TRUE(std::isnan(split.added.x()));
+    EXPECT_EQ(split.added.y(), -1.0 / 3);
+    EXPECT_TRUE(std::signbit(decoded->moves()[0].position.x()));
+    EXPECT_EQ(decoded->moves()[0], records.moves()[0]);
 }
 
-TEST(RecordBlockTest, FullBlockFitsTheLimit) {
-    const std::uint32_t full = splits_per_block(RecordEncoding::kFloat64);
-    EXPECT_LE(block_of(full).payload.size(), kMaxBlockBytes);
-    EXPECT_GT(block_of(full).payload.size() + 56, kMaxBlockBytes);
+TEST(RecordBlockTest, AsManyFitAsTheLimitAllows) {
+    EXPECT_EQ(records_that_fit(splits(10000), RecordEncoding::kFloat64), 4599U);
+    EXPECT_EQ(encode_block(splits(4599), 0, RecordEncoding::kFloat64).payload.size(), kMaxBlockBytes);
+    EXPECT_EQ(records_that_fit({}, RecordEncoding::kFloat64), 0U);
+    const RecordList records = random_records(60000, 9);
+    for (std::size_t first = 0; first < records.size();) {
+        const RecordSpan left = records.slice(first, records.size() - first);
+        const std::size_t count = records_that_fit(left, RecordEncoding::kFloat64);
+        ASSERT_GT(count, 0U);
+        const std::size_t bytes = encode_block(records.slice(first, count), 0, RecordEncoding::kFloat64).payload.size();
+        EXPECT_LE(bytes, kMaxBlockBytes);
+        if (count < left.size()) {
+            EXPECT_GT(bytes + 57 + 7, kMaxBlockBytes);
+        }
+        first += count;
+    }
 }
 
 TEST(RecordBlockTest, AnyChangedByteIsCorrupt) {
@@ -96,20 +127,35 @@ TEST(RecordBlockTest, ChangedFieldsAreCorrupt) {
     expect_corrupt(changed([](RecordBlock& block) { block.count = 3; }), "count too small");
     expect_corrupt(changed([](RecordBlock& block) { block.count = 5; }), "count too large");
     expect_corrupt(changed([](RecordBlock& block) { block.count = 0xFFFFFFFF; }), "count of 4 billion");
-    // 56 * 2^29 is a multiple of 2^32: to 32-bit arithmetic the size looks right.
-    expect_corrupt(changed([](RecordBlock& block) { block.count = 4 + (1U << 29U); }), "count that wraps");
     expect_corrupt(changed([](RecordBlock& block) { block.payload.pop_back(); }), "payload cut");
     expect_corrupt(changed([](RecordBlock& block) { block.payload += '\0'; }), "payload too long");
+    expect_corrupt(changed([](RecordBlock& block) { block.payload.clear(); }), "no payload");
     expect_corrupt(changed([](RecordBlock& block) { block.crc32c ^= 1; }), "checksum");
     expect_corrupt(changed([](RecordBlock& block) { block.encoding = RecordEncoding{0}; }), "encoding 0");
     expect_corrupt(changed([](RecordBlock& block) { block.encoding = RecordEncoding{99}; }), "encoding 99");
-    expect_corrupt(changed([](RecordBlock& block) { block.first = 0xFFFFFFFE; }), "split numbers beyond 32 bits");
+    expect_corrupt(changed([](RecordBlock& block) { block.first = 0xFFFFFFFE; }), "record numbers beyond 32 bits");
+}
+
+TEST(RecordBlockTest, KindsThatLieAreCorrupt) {
+    const auto with_byte = [](std::size_t at, char value) {
+        RecordBlock block = encode_block(RecordList{VertexSplit{}, EdgeFlip{}, VertexMove{}}, 17, RecordEncoding::kFloat64);
+        block.payload[at] = value;
+        block.crc32c = crc32c(std::as_bytes(std::span(block.payload)));
+        return block;
+    };
+    EXPECT_TRUE(decode_block(with_byte(0, 0)));
+    expect_corrupt(with_byte(0, 3), "unknown kind");
+    expect_corrupt(with_byte(2, '\xFF'), "unknown kind");
+    expect_corrupt(with_byte(0, 1), "two flips have no bytes of a split");
+    expect_corrupt(with_byte(1, 2), "two moves take more");
+    expect_corrupt(with_byte(3, 1), "filled with something");
+    expect_corrupt(with_byte(7, 1), "filled with something");
 }
 
 TEST(RecordBlockTest, PayloadBeyondTheLimitIsCorrupt) {
     RecordBlock block;
-    block.count = splits_per_block(RecordEncoding::kFloat64) + 1;
-    block.payload.assign(block.count * std::size_t{56}, '\0');
+    block.count = 4600;
+    block.payload.assign(block.count * std::size_t{57}, '\0');
     block.crc32c = crc32c(std::as_bytes(std::span(block.payload)));
     expect_corrupt(block, "one split too many");
 }

@@ -102,7 +102,7 @@ TEST(SimplifierTest, CollapsesInExactlyTheOrderOfTheLiteralAlgorithm) {
         const SimplifyInput input = make_input(mesh, 0.05);
         const auto improved = simplify(input, ImprovePolicy{}, context);
         ASSERT_TRUE(improved);
-        EXPECT_GT(improved->splits.size(), 0U);
+        EXPECT_GT(improved->levels(), 0U);
         EXPECT_EQ(*improved, LiteralSimplifier<ImprovePolicy>(input, ImprovePolicy{}).run());
         const auto controlled = simplify(input, control_policy(mesh), context);
         ASSERT_TRUE(controlled);
@@ -259,7 +259,7 @@ TEST(SimplifierTest, KeepsEveryCollapseWithinTolerance) {
     const ExecutionContext context;
     const auto sphere = simplify(make_input(test::icosphere(3), 1e-12), ImprovePolicy{}, context);
     ASSERT_TRUE(sphere);
-    EXPECT_EQ(sphere->splits.size(), 0U);
+    EXPECT_EQ(sphere->levels(), 0U);
     const auto fine = subdivide_one_to_four(test::cube(), 3, 10000, context);
     ASSERT_TRUE(fine);
     const auto box = simplify(make_input(fine->mesh, 1e-7), ImprovePolicy{}, context);

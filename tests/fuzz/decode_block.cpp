@@ -18,12 +18,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     RecordBlock block{fields[0], fields[1], RecordEncoding{fields[2]}, std::string(data + kHeader, data + size), 0};
     if ((data[kHeader - 1] & 1U) != 0) block.crc32c = crc32c(std::as_bytes(std::span(block.payload)));
 
-    const Expected<std::vector<VertexSplit>> splits = decode_block(block);
-    if (!splits) {
-        fuzz::check(splits.error().cause == Cause::kCorrupt, "what is no block is corrupt");
+    const Expected<RecordList> records = decode_block(block);
+    if (!records) {
+        fuzz::check(records.error().cause == Cause::kCorrupt, "what is no block is corrupt");
         return 0;
     }
-    const RecordBlock again = encode_block(*splits, block.first, block.encoding);
+    fuzz::check(records_that_fit(*records, block.encoding) == records->size(), "what came in a block fits one");
+    const RecordBlock again = encode_block(*records, block.first, block.encoding);
     fuzz::check(again.payload == block.payload && again.count == block.count && again.crc32c == block.crc32c,
                 "a block that was decoded encodes to the same bytes");
     return 0;

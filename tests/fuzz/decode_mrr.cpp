@@ -12,7 +12,7 @@ namespace {
 using namespace vsplit;
 
 // docs/format.md
-constexpr std::size_t kHeader = 40;
+constexpr std::size_t kHeader = 48;
 constexpr std::size_t kBlockHeader = 20;
 
 std::uint32_t get(const std::uint8_t* from) { return from[0] | from[1] << 8U | from[2] << 16U | std::uint32_t{from[3]} << 24U; }
@@ -26,9 +26,9 @@ std::uint32_t crc(const std::uint8_t* data, std::size_t size) { return crc32c(st
 /// Makes the checksums fit: what is behind them is to be tried, and no mutation finds a checksum.
 void mend_checksums(std::uint8_t* data, std::size_t size) {
     if (size < kHeader) return;
-    const std::uint64_t base = 24 * std::uint64_t{get(data + 12)} + 12 * std::uint64_t{get(data + 16)} + get(data + 28);
+    const std::uint64_t base = 24 * std::uint64_t{get(data + 12)} + 12 * std::uint64_t{get(data + 16)} + get(data + 36);
     if (base <= size - kHeader) {
-        put(data + 32, crc(data + kHeader, base));
+        put(data + 40, crc(data + kHeader, base));
         for (std::size_t at = kHeader + base; size - at >= kBlockHeader;) {
             const std::uint64_t payload = get(data + at + 12);
             if (payload > size - at - kBlockHeader) break;
@@ -36,7 +36,7 @@ void mend_checksums(std::uint8_t* data, std::size_t size) {
             at += kBlockHeader + payload;
         }
     }
-    put(data + 36, crc(data, 36));
+    put(data + 44, crc(data, 44));
 }
 
 }  // namespace
@@ -62,7 +62,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string again = encode_mrr(*stored);
     const Expected<StoredMrr> twice = decode_mrr(std::as_bytes(std::span(again)));
     fuzz::check(twice && encode_mrr(*twice) == again, "what was decoded is encoded and decoded again");
-    const TriangleMesh finest = mesh_at(stored->mrr, stored->mrr.splits.size());
-    fuzz::check(finest.face_count() == stored->mrr.faces_max(), "every split of a decoded file can be applied");
+    const MultiresMesh& mrr = stored->mrr;
+    const TriangleMesh finest = mesh_at(mrr, mrr.levels());
+    fuzz::check(finest.face_count() == mrr.faces_max(), "every record of a decoded file can be applied");
+    fuzz::check(mesh_at(mrr, 0).face_count() == mrr.faces_min(), "the base has the faces it says");
+    fuzz::check(mrr.level_for(mrr.faces_max()) == mrr.levels(), "every level is found by its faces");
     return 0;
 }

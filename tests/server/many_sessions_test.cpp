@@ -80,7 +80,7 @@ private:
 
     void move() {
         for (int i = 0; i < 4; ++i) {
-            const std::size_t level = random_() % (mrr_.splits.size() + 1);
+            const std::size_t level = random_() % (mrr_.levels() + 1);
             v1::SetResolutionRequest request;
             request.set_session(id_);
             request.set_representation("r1");

@@ -1,12 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "test_client.h"
 #include "test_server.h"
+#include "tests/core/edited_mrr.h"
 #include "tests/core/meshes.h"
 #include "vsplit/io/read_mesh.h"
 #include "vsplit/quality/mesh_quality.h"
@@ -82,6 +84,77 @@ TEST_F(ResolutionRpcsTest, ClimbsAndDescendsAtRandom) {
         EXPECT_EQ(received.mesh->mesh().face_count(), faces);
         expect_download(*received.mesh);
     }
+}
+
+/// Representations with records of all kinds, closed and open, put into a session as a method would.
+class EditedRepresentationTest : public ::testing::Test {
+protected:
+    void put(const TriangleMesh& mesh) {
+        mrr_ = edited_mrr(mesh, 400, 21).mrr;
+        ASSERT_GT(mrr_.records.flips().size(), 50U);
+        ASSERT_GT(mrr_.records.moves().size(), 50U);
+        MethodResult result;
+        result.mrr = mrr_;
+        result.faces = mrr_.faces_at(mrr_.levels() / 2);
+        result.quality = measure_quality(mesh_at(mrr_, mrr_.levels() / 2));
+        session_ = session_with(server_.stub(), torus(20, 12));
+        const auto session = server_.service().sessions().find(session_);
+        ASSERT_TRUE(session);
+        ASSERT_TRUE((*session)->add_representation({}, result));
+    }
+
+    Received ask(std::uint32_t held, std::size_t level, std::optional<ProgressiveMesh> mesh, std::uint32_t resume_from = 0) {
+        v1::SetResolutionRequest request;
+        request.set_session(session_);
+        request.set_faces_held(held);
+        request.set_faces(mrr_.faces_at(level));
+        request.set_resume_from(resume_from);
+        return set_resolution(server_.stub(), request, std::move(mesh));
+    }
+
+    void expect_level(const Received& received, std::size_t level) {
+        ASSERT_TRUE(received.status.ok() && received.mesh) << received.status.error_message();
+        EXPECT_EQ(received.mesh->level(), level);
+        EXPECT_EQ(received.mesh->records(), mrr_.record_of_level(level));
+        EXPECT_EQ(received.representation->faces(), mrr_.faces_at(level));
+        EXPECT_EQ(received.mesh->visible(), mesh_at(mrr_, level));
+        const Downloaded file = download(server_.stub(), session_, "r1", mrr_.faces_at(level), v1::PLY);
+        ASSERT_TRUE(file.status.ok());
+        EXPECT_EQ(file.file, file_of(received.mesh->visible(), MeshFormat::kPlyBinary)) << "level " << level;
+    }
+
+    TestServer server_;
+    std::string session_;
+    MultiresMesh mrr_;
+};
+
+TEST_F(EditedRepresentationTest, StreamedIsDownloadedByteForByte) {
+    for (const TriangleMesh& mesh : {torus(40, 20), punctured(torus(40, 20), {0, 405, 610}), square(20)}) {
+        ASSERT_NO_FATAL_FAILURE(put(mesh));
+        Received received = ask(0, 0, std::nullopt);
+        expect_level(received, 0);
+        std::mt19937 random(3);
+        for (int i = 0; i < 8; ++i) {
+            const std::size_t level = random() % (mrr_.levels() + 1);
+            const std::size_t held = received.mesh->level();
+            received = ask(mrr_.faces_at(held), level, std::move(received.mesh));
+            if (level < held) received.mesh->coarsen(held - level);
+            expect_level(received, level);
+        }
+    }
+}
+
+TEST_F(EditedRepresentationTest, ResumesBetweenTwoSplits) {
+    ASSERT_NO_FATAL_FAILURE(put(punctured(torus(40, 20), {0, 405, 610})));
+    std::size_t broken = mrr_.records.size() / 2;
+    while (mrr_.records.kinds()[broken - 1] == RecordKind::kSplit) ++broken;  // ends with an edit
+    auto mesh = ProgressiveMesh::from_base(mrr_.base, mrr_.ghosts);
+    ASSERT_TRUE(mesh && mesh->refine(mrr_.records.slice(0, broken)));
+    const std::uint32_t held = mrr_.faces_at(mesh->level());
+    const Received rest = ask(held, mrr_.levels(), *mesh, static_cast<std::uint32_t>(broken));
+    EXPECT_EQ(rest.base_parts, 0U);
+    EXPECT_EQ(rest.records, mrr_.records.size() - broken);
+    expect_level(rest, mrr_.levels());
 }
 
 TEST_F(ResolutionRpcsTest, OutOfRangeGivesTheNearestAndSaysWhich) {

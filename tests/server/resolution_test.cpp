@@ -12,12 +12,16 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A session with representations of 4 to 24 faces, made for 14. The splits say nothing: a plan does not look at them.
+// A session with representations of 4 to 24 faces, made for 14: before each of ten splits a flip and a move. What they are says
+// nothing: a plan does not look at it. Level s has 3s records before it.
 SessionSnapshot session_with(int representations) {
     SessionSnapshot session;
     MethodResult result;
     result.mrr.base = test::tetrahedron();
-    result.mrr.splits.resize(10);
+    for (int split = 0; split < 10; ++split) {
+        for (const Record& record : {Record(EdgeFlip{}), Record(VertexMove{}), Record(VertexSplit{})})
+            result.mrr.records.push_back(record);
+    }
     result.faces = 14;
     for (int i = 1; i <= representations; ++i) {
         session.representations.push_back(std::make_shared<const Representation>('r' + std::to_string(i), MeshRef{}, result));
@@ -34,22 +38,22 @@ ResolutionPlan plan(std::uint32_t held, std::uint32_t wanted, std::uint32_t resu
 TEST(ResolutionTest, WhoHoldsNothingGetsTheBaseAndAllRecords) {
     const ResolutionPlan p = plan(0, 14);
     EXPECT_TRUE(p.with_base);
-    EXPECT_EQ(p.first_split, 0U);
-    EXPECT_EQ(p.last_split, 5U);
+    EXPECT_EQ(p.first_record, 0U);
+    EXPECT_EQ(p.last_record, 15U);
     EXPECT_EQ(p.level, 5U);
 }
 
 TEST(ResolutionTest, WhoHoldsALevelGetsWhatIsMissing) {
     const ResolutionPlan p = plan(8, 14);
     EXPECT_FALSE(p.with_base);
-    EXPECT_EQ(p.first_split, 2U);
-    EXPECT_EQ(p.last_split, 5U);
+    EXPECT_EQ(p.first_record, 6U);
+    EXPECT_EQ(p.last_record, 15U);
 }
 
 TEST(ResolutionTest, CoarserSendsNothing) {
     const ResolutionPlan p = plan(14, 8);
     EXPECT_FALSE(p.with_base);
-    EXPECT_EQ(p.first_split, p.last_split);
+    EXPECT_EQ(p.first_record, p.last_record);
     EXPECT_EQ(p.level, 2U);
 }
 
@@ -60,17 +64,17 @@ TEST(ResolutionTest, OutOfRangeGivesTheNearest) {
 }
 
 TEST(ResolutionTest, ResumesWhereAStreamBrokeOff) {
-    const ResolutionPlan with_part = plan(0, 14, 3);
+    const ResolutionPlan with_part = plan(0, 14, 4);
     EXPECT_FALSE(with_part.with_base) << "records come after the base mesh";
-    EXPECT_EQ(with_part.first_split, 3U);
-    EXPECT_EQ(with_part.last_split, 5U);
-    EXPECT_EQ(plan(8, 14, 4).first_split, 4U);
-    EXPECT_EQ(plan(8, 14, 1).first_split, 2U) << "what the client holds is not sent again";
-    EXPECT_EQ(plan(8, 14, 7).last_split, 7U) << "nothing is missing";
+    EXPECT_EQ(with_part.first_record, 4U);
+    EXPECT_EQ(with_part.last_record, 15U);
+    EXPECT_EQ(plan(8, 14, 11).first_record, 11U);
+    EXPECT_EQ(plan(8, 14, 4).first_record, 6U) << "what the client holds is not sent again";
+    EXPECT_EQ(plan(8, 14, 17).last_record, 17U) << "nothing is missing";
 }
 
 TEST(ResolutionTest, RefusesToResumeBeyondTheLastRecord) {
-    const Expected<ResolutionPlan> made = plan_resolution(session_with(1), {"", 0, 14, 11});
+    const Expected<ResolutionPlan> made = plan_resolution(session_with(1), {"", 0, 14, 31});
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().cause, Cause::kInvalidOption);
     EXPECT_EQ(made.error().field, "resume_from");
@@ -92,6 +96,24 @@ TEST(ResolutionTest, TakesTheNewestUnlessToldOtherwise) {
     EXPECT_EQ(plan_resolution(session, {"r1", 0, 14, 0})->representation->id(), "r1");
     EXPECT_EQ(plan_resolution(session, {"r3", 0, 14, 0}).error().cause, Cause::kNotFound);
     EXPECT_EQ(plan_resolution(session_with(0), {"", 0, 14, 0}).error().cause, Cause::kNotReady);
+}
+
+TEST(ResolutionTest, OpenMeshesHaveOddNumbersOfFacesToo) {
+    MethodResult result;
+    result.mrr.base = test::tetrahedron();
+    result.mrr.ghosts = 1;
+    result.mrr.ghost_faces = 3;
+    for (int split = 0; split < 4; ++split) result.mrr.records.push_back(VertexSplit{});
+    result.mrr.border_splits = {0, 2};
+    SessionSnapshot session;
+    session.representations.push_back(std::make_shared<const Representation>("r1", MeshRef{}, result));
+    const Expected<ResolutionPlan> made = plan_resolution(session, {"", 2, 5, 0});  // 1 2 4 5 7 faces
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_EQ(made->first_record, 1U);
+    EXPECT_EQ(made->last_record, 3U);
+    const Expected<ResolutionPlan> none = plan_resolution(session, {"", 6, 7, 0});
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message, HasSubstr("the nearest is 5 (it has 1 to 7 in steps of 1 or 2"));
 }
 
 }  // namespace

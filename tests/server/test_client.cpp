@@ -55,7 +55,7 @@ private:
         const Status added = base_.add(part);
         ASSERT_TRUE(added) << added.error().message;
         if (!base_.complete()) return;
-        Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(base_.take());
+        Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(base_.take(), base_.ghosts());
         ASSERT_TRUE(mesh) << mesh.error().message;
         received_.mesh = *std::move(mesh);
     }
@@ -63,14 +63,14 @@ private:
     void take(const v1::RecordBlock& proto) {
         ASSERT_TRUE(received_.mesh) << "records without a mesh";
         EXPECT_LE(proto.payload().size(), kMaxBlockBytes);
-        EXPECT_EQ(proto.first(), received_.mesh->level());
+        EXPECT_EQ(proto.first(), received_.mesh->records());
         const Expected<RecordBlock> block = wire::from_proto(proto);
         ASSERT_TRUE(block) << block.error().message;
-        const Expected<std::vector<VertexSplit>> splits = decode_block(*block);
-        ASSERT_TRUE(splits) << splits.error().message;
-        const Status refined = received_.mesh->refine(*splits);
+        const Expected<RecordList> records = decode_block(*block);
+        ASSERT_TRUE(records) << records.error().message;
+        const Status refined = received_.mesh->refine(*records);
         ASSERT_TRUE(refined) << refined.error().message;
-        received_.records += splits->size();
+        received_.records += records->size();
     }
 
     Received received_;

@@ -14,49 +14,60 @@ Error too_many(std::uint64_t faces, std::uint32_t limit) {
 }  // namespace
 
 EventHandlers MeshReceiver::handlers(std::function<void(const v1::Progress&)> on_progress) {
-    return {std::move(on_progress), [this](TriangleMesh base) { return begin(std::move(base)); },
-            [this](std::uint32_t first, std::span<const VertexSplit> splits) { return append(first, splits); }};
+    return {std::move(on_progress), [this](TriangleMesh base, std::uint32_t ghosts) { return begin(std::move(base), ghosts); },
+            [this](std::uint32_t first, const RecordSpan& records) { return append(first, records); }};
 }
 
-Status MeshReceiver::begin(TriangleMesh base) {
+Status MeshReceiver::begin(TriangleMesh base, std::uint32_t ghosts) {
     if (base.face_count() > max_faces_) return too_many(base.face_count(), max_faces_);
-    Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(base);
+    Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(base, ghosts);
     if (!mesh) return mesh.error();
-    held_ = {std::move(base), {}};
+    const std::uint32_t ghost_faces = count_ghost_faces(base, ghosts);
+    held_ = {std::move(base), {}, ghosts, ghost_faces, {}};
     progressive_ = *std::move(mesh);
+    visible_records_.reset();
     return Done{};
 }
 
-Status MeshReceiver::append(std::uint32_t first, std::span<const VertexSplit> splits) {
+Status MeshReceiver::append(std::uint32_t first, const RecordSpan& records) {
     if (!has_mesh()) return Error{Cause::kOutOfOrder, "records came without a base mesh", ""};
-    if (first != held_.splits.size()) {
+    if (first != records_held()) {
         return Error{Cause::kOutOfOrder,
-                     "a block begins at split " + std::to_string(first) + ", expected is " + std::to_string(held_.splits.size()),
-                     ""};
+                     "a block begins at record " + std::to_string(first) + ", expected is " + std::to_string(records_held()), ""};
     }
-    const std::uint64_t faces = std::uint64_t{held_.faces_max()} + 2 * splits.size();
+    const std::uint64_t faces = held_.base.face_count() + 2 * (std::uint64_t{held_.levels()} + records.splits.size());
     if (faces > max_faces_) return too_many(faces, max_faces_);
-    if (Status shown = show_level(held_.splits.size()); !shown) return shown;
-    if (Status refined = progressive_->refine(splits); !refined) {
-        progressive_->coarsen(progressive_->level() - held_.splits.size());  // what is shown is always held
+    if (Status shown = show_records(held_.records.size()); !shown) return shown;
+    if (Status refined = progressive_->refine(records); !refined) {
+        progressive_->rewind(held_.records.size());  // what is shown is always held
         return refined;
     }
-    held_.splits.insert(held_.splits.end(), splits.begin(), splits.end());
+    held_.records.append(records);
+    held_.border_splits = progressive_->border_splits();
     return Done{};
 }
 
 Status MeshReceiver::show(std::uint32_t faces) {
     if (!has_mesh()) return Error{Cause::kOutOfOrder, "no mesh has been received yet", ""};
-    return show_level(held_.level_for(faces));
+    return show_records(held_.record_of_level(held_.level_for(faces)));
 }
 
-Status MeshReceiver::show_level(std::size_t level) {
-    const std::size_t now = progressive_->level();
-    if (level <= now) {
-        progressive_->coarsen(now - level);
+const TriangleMesh& MeshReceiver::mesh() const {
+    if (held_.ghosts == 0) return progressive_->mesh();
+    if (visible_records_ != progressive_->records()) {
+        visible_ = progressive_->visible();
+        visible_records_ = progressive_->records();
+    }
+    return visible_;
+}
+
+Status MeshReceiver::show_records(std::size_t records) {
+    const std::size_t now = progressive_->records();
+    if (records <= now) {
+        progressive_->rewind(records);
         return Done{};
     }
-    return progressive_->refine(std::span(held_.splits).subspan(now, level - now));
+    return progressive_->refine(held_.records.slice(now, records - now));
 }
 
 }  // namespace vsplit::client

@@ -24,6 +24,7 @@
 #include "vsplit/mrr/record_block.h"
 #include "vsplit/quality/crease_deviation.h"
 #include "vsplit/quality/deviation.h"
+#include "vsplit/mrr/records.h"
 #include "vsplit/quality/mesh_quality.h"
 #include "vsplit/quality/stretch.h"
 #include "vsplit/simplify/quadric.h"

@@ -231,7 +231,9 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     return report;
 }
 
-Status require_closed_manifold(const MeshReport& report) {
+namespace {
+
+Status require_faces_and_edges(const MeshReport& report) {
     if (report.faces == 0) return Error{Cause::kEmptyInput, "the mesh has no faces; a closed mesh of at least 4 is needed", ""};
     using Kind = Finding::Kind;
     if (const Finding* f = find_kind(report, Kind::kNonManifoldEdge)) {
@@ -252,19 +254,35 @@ Status require_closed_manifold(const MeshReport& report) {
                          " (face indices); a sheet needs a thickness, or one face only",
                      ""};
     }
-    if (const Finding* f = find_kind(report, Kind::kBoundaryEdge)) {
-        return Error{Cause::kOpenMesh,
-                     "the mesh is open: " + std::to_string(f->count) + " edges have one face only: " + places(*f, true) +
-                         " (vertex indices); a closed mesh is needed (--weld, in model units, may close small gaps)",
-                     ""};
-    }
-    if (const Finding* f = find_kind(report, Kind::kNonManifoldVertex)) {
+    return Done{};
+}
+
+Status require_vertices(const MeshReport& report) {
+    if (const Finding* f = find_kind(report, Finding::Kind::kNonManifoldVertex)) {
         return Error{Cause::kNonManifold,
                      std::to_string(f->count) + " vertices join more than one fan of faces: " + places(*f, false) +
                          "; every vertex must have one",
                      ""};
     }
     return Done{};
+}
+
+}  // namespace
+
+Status require_closed_manifold(const MeshReport& report) {
+    if (Status edges = require_faces_and_edges(report); !edges) return edges;
+    if (const Finding* f = find_kind(report, Finding::Kind::kBoundaryEdge)) {
+        return Error{Cause::kOpenMesh,
+                     "the mesh is open: " + std::to_string(f->count) + " edges have one face only: " + places(*f, true) +
+                         " (vertex indices); a closed mesh is needed (--weld, in model units, may close small gaps)",
+                     ""};
+    }
+    return require_vertices(report);
+}
+
+Status require_manifold(const MeshReport& report) {
+    if (Status edges = require_faces_and_edges(report); !edges) return edges;
+    return require_vertices(report);
 }
 
 }  // namespace vsplit

@@ -15,14 +15,14 @@ Error error_at(Cause cause, std::size_t byte, const std::string& what) {
     return {cause, "byte " + std::to_string(byte) + ": " + what, ""};
 }
 
-/// Reads a `.vsplit` file front to back. Nothing is taken from it that was not checked, and every split is tried on a mesh.
+/// Reads a `.vsplit` file front to back. Nothing is taken from it that was not checked, and every record is tried on a mesh.
 class MrrDecoder {
 public:
     explicit MrrDecoder(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
     Expected<StoredMrr> decode() {
         for (const auto step : {&MrrDecoder::check_magic, &MrrDecoder::check_header, &MrrDecoder::check_sizes,
-                                &MrrDecoder::read_base, &MrrDecoder::read_blocks}) {
+                                &MrrDecoder::read_base, &MrrDecoder::read_blocks, &MrrDecoder::check_end}) {
             if (const Status status = (this->*step)(); !status) return status.error();
         }
         return std::move(stored_);
@@ -40,7 +40,8 @@ private:
                             "this is no .vsplit file; one begins with the bytes 89 56 53 50 0d 0a 1a 0a");
         }
         if (bytes_.size() >= kMrrHeaderBytes) return Done{};
-        return error_at(Cause::kTruncatedInput, bytes_.size(), "the file ends within its header of 40 bytes");
+        return error_at(Cause::kTruncatedInput, bytes_.size(),
+                        "the file ends within its header of " + std::to_string(kMrrHeaderBytes) + " bytes");
     }
 
     Status check_header() {
@@ -68,8 +69,12 @@ private:
                                 std::to_string(left()) + " more");
         }
         const std::uint64_t corners = 3 * (field(kMrrFacesAt) + 2 * std::uint64_t{field(kMrrSplitsAt)});
-        if (corners < std::numeric_limits<std::uint32_t>::max()) return Done{};
-        return error_at(Cause::kCorrupt, kMrrSplitsAt, "the finest level would have more corners than 32 bits can number");
+        if (corners >= std::numeric_limits<std::uint32_t>::max())
+            return error_at(Cause::kCorrupt, kMrrSplitsAt, "the finest level would have more corners than 32 bits can number");
+        if (field(kMrrSplitsAt) <= field(kMrrRecordsAt)) return Done{};
+        return error_at(
+            Cause::kCorrupt, kMrrSplitsAt,
+            std::to_string(field(kMrrSplitsAt)) + " splits among " + std::to_string(field(kMrrRecordsAt)) + " records");
     }
 
     Status read_base() {
@@ -90,56 +95,78 @@ private:
         at_ += text.size();
         stored_.faces = field(kMrrShownAt);
 
-        Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(base);
+        Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(base, field(kMrrGhostsAt));
         if (!mesh) return error_at(Cause::kCorrupt, kMrrHeaderBytes, "the base mesh: " + mesh.error().message);
         mesh_ = *std::move(mesh);
+        stored_.mrr.ghosts = field(kMrrGhostsAt);
+        stored_.mrr.ghost_faces = count_ghost_faces(base, stored_.mrr.ghosts);
         return Done{};
     }
 
+    [[nodiscard]] RecordList& records() { return stored_.mrr.records; }
+
     Status read_blocks() {
-        const std::uint32_t splits = field(kMrrSplitsAt);
-        while (stored_.mrr.splits.size() < splits) {
-            if (const Status status = read_block(splits); !status) return status.error();
+        while (records().size() < field(kMrrRecordsAt)) {
+            if (const Status status = read_block(); !status) return status.error();
         }
-        if (left() == 0) return Done{};
-        return error_at(Cause::kCorrupt, at_,
-                        std::to_string(left()) + " bytes follow the last of " + std::to_string(splits) + " splits");
+        return Done{};
     }
 
-    Status read_block(std::uint32_t splits) {
+    Status check_end() {
+        const std::string all = std::to_string(records().size()) + " records";
+        if (left() != 0) {
+            return error_at(Cause::kCorrupt, at_, std::to_string(left()) + " bytes follow the last of " + all);
+        }
+        if (mesh_->level() != field(kMrrSplitsAt)) {
+            return error_at(
+                Cause::kCorrupt, kMrrSplitsAt,
+                std::to_string(mesh_->level()) + " of " + all + " are splits, not " + std::to_string(field(kMrrSplitsAt)));
+        }
+        if (!records().empty() && records().kinds().back() != RecordKind::kSplit) {
+            return error_at(Cause::kCorrupt, bytes_.size(), "the last of " + all + " is no split; edits stand before a split");
+        }
+        stored_.mrr.border_splits = mesh_->border_splits();
+        return Done{};
+    }
+
+    Status read_block() {
         const std::size_t block_at = at_;
-        const auto read = static_cast<std::uint32_t>(stored_.mrr.splits.size());
-        if (left() < kMrrBlockHeaderBytes) return truncated(splits);
+        const auto read = static_cast<std::uint32_t>(records().size());
+        const std::uint32_t due = field(kMrrRecordsAt) - read;
+        if (left() < kMrrBlockHeaderBytes) return truncated();
         RecordBlock block;
         block.first = take<std::uint32_t>();
         block.count = take<std::uint32_t>();
         block.encoding = RecordEncoding{take<std::uint32_t>()};
         const auto payload_bytes = take<std::uint32_t>();
         block.crc32c = take<std::uint32_t>();
-        if (block.first != read || block.count == 0 || block.count > splits - read) {
+        if (block.first != read || block.count == 0 || block.count > due) {
             return error_at(Cause::kCorrupt, block_at,
-                            "a block has splits " + std::to_string(block.first) + " and on, " + std::to_string(block.count) +
-                                " in all, where up to " + std::to_string(splits - read) + " from " + std::to_string(read) +
-                                " on are due");
+                            "a block has records " + std::to_string(block.first) + " and on, " + std::to_string(block.count) +
+                                " in all, where up to " + std::to_string(due) + " from " + std::to_string(read) + " on are due");
         }
-        if (payload_bytes > left()) return truncated(splits);
+        if (payload_bytes > left()) return truncated();
         block.payload.assign(reinterpret_cast<const char*>(bytes_.data() + at_), payload_bytes);
         at_ += payload_bytes;
         return accept(block, block_at);
     }
 
     Status accept(const RecordBlock& block, std::size_t block_at) {
-        const Expected<std::vector<VertexSplit>> decoded = decode_block(block);
+        const Expected<RecordList> decoded = decode_block(block);
         if (!decoded) return error_at(Cause::kCorrupt, block_at, decoded.error().message);
+        if (decoded->splits().size() > field(kMrrSplitsAt) - mesh_->level()) {
+            return error_at(Cause::kCorrupt, block_at,
+                            "a block brings more splits than the " + std::to_string(field(kMrrSplitsAt)) + " announced");
+        }
         if (const Status fits = mesh_->refine(*decoded); !fits) return error_at(Cause::kCorrupt, block_at, fits.error().message);
-        stored_.mrr.splits.insert(stored_.mrr.splits.end(), decoded->begin(), decoded->end());
+        records().append(*decoded);
         return Done{};
     }
 
-    [[nodiscard]] Status truncated(std::uint32_t splits) const {
-        return error_at(
-            Cause::kTruncatedInput, bytes_.size(),
-            "the file ends after " + std::to_string(stored_.mrr.splits.size()) + " of " + std::to_string(splits) + " splits");
+    [[nodiscard]] Status truncated() {
+        return error_at(Cause::kTruncatedInput, bytes_.size(),
+                        "the file ends after " + std::to_string(records().size()) + " of " +
+                            std::to_string(field(kMrrRecordsAt)) + " records");
     }
 
     /// \pre sizeof(T) <= left().

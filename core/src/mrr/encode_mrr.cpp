@@ -24,9 +24,10 @@ char* store_base(char* to, const StoredMrr& stored) {
 
 void store_header(char* file, const StoredMrr& stored, std::uint32_t base_crc) {
     char* to = std::copy(kMrrMagic.begin(), kMrrMagic.end(), file);
-    for (const std::uint32_t field : {kMrrVersion, stored.mrr.base.vertex_count(), stored.mrr.base.face_count(),
-                                      static_cast<std::uint32_t>(stored.mrr.splits.size()), stored.faces,
-                                      static_cast<std::uint32_t>(stored.description.size()), base_crc}) {
+    for (const std::uint32_t field :
+         {kMrrVersion, stored.mrr.base.vertex_count(), stored.mrr.base.face_count(), stored.mrr.ghosts,
+          static_cast<std::uint32_t>(stored.mrr.levels()), static_cast<std::uint32_t>(stored.mrr.records.size()), stored.faces,
+          static_cast<std::uint32_t>(stored.description.size()), base_crc}) {
         to = store(to, field);
     }
     assert(to == file + kMrrHeaderCrcAt);
@@ -41,30 +42,37 @@ char* store_block(char* to, const RecordBlock& block) {
     return std::copy(block.payload.begin(), block.payload.end(), to);
 }
 
+/// What the blocks of all records take at most: no record takes more than a split, and all blocks but the last have no room for
+/// another.
+std::size_t most_block_bytes(const RecordList& records) {
+    constexpr std::size_t kSplit = 57, kFlip = 5, kMove = 29, kFill = 7;
+    const std::size_t payload =
+        records.splits().size() * kSplit + records.flips().size() * kFlip + records.moves().size() * kMove;
+    const std::size_t blocks = payload / (kMaxBlockBytes - kSplit - kFill) + 1;
+    return payload + blocks * (kMrrBlockHeaderBytes + kFill);
+}
+
 }  // namespace
 
 std::string encode_mrr(const StoredMrr& stored) {
     [[maybe_unused]] constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max();
-    assert(stored.description.size() <= kLargest && stored.mrr.splits.size() <= kLargest);
-    const std::size_t in_block = splits_per_block(RecordEncoding::kFloat64);
+    assert(stored.description.size() <= kLargest && stored.mrr.records.size() <= kLargest);
     const std::size_t base_bytes = stored.mrr.base.positions.size() * kMrrVertexBytes +
                                    stored.mrr.base.faces.size() * kMrrFaceBytes + stored.description.size();
     std::string bytes(kMrrHeaderBytes + base_bytes, '\0');
     const char* const base_end = store_base(bytes.data() + kMrrHeaderBytes, stored);
     store_header(bytes.data(), stored, crc_between(bytes.data() + kMrrHeaderBytes, base_end));
 
-    const std::span<const VertexSplit> splits(stored.mrr.splits);
-    for (std::size_t first = 0; first < splits.size(); first += in_block) {
-        const std::size_t count = std::min(in_block, splits.size() - first);
+    const RecordList& records = stored.mrr.records;
+    bytes.reserve(bytes.size() + most_block_bytes(records));
+    for (std::size_t first = 0; first < records.size();) {
+        const std::size_t count = records_that_fit(records.slice(first, records.size() - first), RecordEncoding::kFloat64);
         const RecordBlock block =
-            encode_block(splits.subspan(first, count), static_cast<std::uint32_t>(first), RecordEncoding::kFloat64);
+            encode_block(records.slice(first, count), static_cast<std::uint32_t>(first), RecordEncoding::kFloat64);
         const std::size_t at = bytes.size();
-        // The first block tells how long all will be.
-        if (first == 0)
-            bytes.reserve(at + (splits.size() / in_block + 1) * kMrrBlockHeaderBytes +
-                          block.payload.size() / count * splits.size());
         bytes.resize(at + kMrrBlockHeaderBytes + block.payload.size());
         store_block(bytes.data() + at, block);
+        first += count;
     }
     return bytes;
 }

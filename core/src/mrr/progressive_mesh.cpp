@@ -4,15 +4,27 @@
 #include <cassert>
 #include <string>
 
+#include "mesh/cap_boundaries.h"
 #include "mesh/coordinate.h"
 #include "mesh/half_edges.h"
+#include "mesh/turn_edge.h"
 #include "vsplit/mesh/inspect.h"
 
 namespace vsplit {
 namespace {
 
-Error corrupt(std::size_t split, const std::string& what) {
-    return {Cause::kCorrupt, "vertex split " + std::to_string(split) + ": " + what, ""};
+/// What is wrong with a record; refine says which one it was.
+Error corrupt(const std::string& what) { return {Cause::kCorrupt, what, ""}; }
+
+const char* name_of(const VertexSplit& /*record*/) { return "vertex split"; }
+const char* name_of(EdgeFlip /*record*/) { return "edge flip"; }
+const char* name_of(const VertexMove& /*record*/) { return "vertex move"; }
+
+/// Room for `more`, growing by half at least: reserving exactly for every block would copy all of it for every block.
+template <class Element>
+void make_room(std::vector<Element>& elements, std::size_t more) {
+    const std::size_t needed = elements.size() + more;
+    if (needed > elements.capacity()) elements.reserve(std::max(needed, elements.capacity() + elements.capacity() / 2));
 }
 
 Status check_indices_and_coordinates(const TriangleMesh& mesh) {
@@ -35,47 +47,153 @@ Status check_indices_and_coordinates(const TriangleMesh& mesh) {
     return Done{};
 }
 
+Status check_ghosts(const TriangleMesh& mesh, std::uint32_t ghosts) {
+    if (ghosts > mesh.vertex_count()) {
+        return corrupt(std::to_string(ghosts) + " ghosts among " + std::to_string(mesh.vertex_count()) + " vertices");
+    }
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const Triangle& face = mesh.faces[f];
+        if (std::count_if(face.begin(), face.end(), [ghosts](std::uint32_t v) { return v < ghosts; }) < 2) continue;
+        return corrupt("face " + std::to_string(f) + " joins two ghosts; each closes a boundary of its own");
+    }
+    if (count_ghost_faces(mesh, ghosts) < mesh.face_count()) return Done{};
+    return Error{Cause::kEmptyInput, "every face touches a ghost; none is visible", ""};
+}
+
 }  // namespace
 
-Expected<ProgressiveMesh> ProgressiveMesh::from_base(TriangleMesh base) {
+Expected<ProgressiveMesh> ProgressiveMesh::from_base(TriangleMesh base, std::uint32_t ghosts) {
     if (Status valid = check_indices_and_coordinates(base); !valid) return valid.error();
     if (Status closed = require_closed_manifold(inspect(base)); !closed) return closed.error();
+    if (Status valid = check_ghosts(base, ghosts); !valid) return valid.error();
     ProgressiveMesh result;
     result.twin_ = half_edge_twins(base);
     result.mesh_ = std::move(base);
+    result.ghosts_ = ghosts;
     return result;
 }
 
 Status ProgressiveMesh::check(const VertexSplit& split) const {
     if (split.anchor >= twin_.size()) {
-        return corrupt(level(),
-                       "anchor " + std::to_string(split.anchor) + " is no corner; the mesh has " + std::to_string(twin_.size()));
+        return corrupt("anchor " + std::to_string(split.anchor) + " is no corner; the mesh has " + std::to_string(twin_.size()));
     }
     if (!is_valid_position(split.kept) || !is_valid_position(split.added)) {
-        return corrupt(level(), "a coordinate is not finite or beyond 1e15");
+        return corrupt("a coordinate is not finite or beyond 1e15");
     }
-    if (split.steps == 0) return corrupt(level(), "0 steps; at least one face must move");
+    if (split.steps == 0) return corrupt("0 steps; at least one face must move");
+    if (is_ghost(origin(mesh_, split.anchor)))
+        return corrupt("at vertex " + std::to_string(origin(mesh_, split.anchor)) + ", a ghost");
     HalfEdge corner = split.anchor;
+    HalfEdge fan_end = kNone;
     for (std::uint32_t step = 0; step < split.steps; ++step) {
-        corner = twin_[prev(corner)];
+        fan_end = prev(corner);
+        corner = twin_[fan_end];
         if (corner == split.anchor) {
-            return corrupt(level(), std::to_string(split.steps) + " steps around a vertex of valence " +
-                                        std::to_string(step + 1) + "; at most valence - 1 are possible");
+            return corrupt(std::to_string(split.steps) + " steps around a vertex of valence " + std::to_string(step + 1) +
+                           "; at most valence - 1 are possible");
         }
+    }
+    if (is_ghost(origin(mesh_, fan_end)) && is_ghost(origin(mesh_, next(split.anchor)))) {
+        return corrupt("between two ghosts; it would make an edge without a visible face");
     }
     return Done{};
 }
 
-Status ProgressiveMesh::refine(std::span<const VertexSplit> splits) {
-    mesh_.positions.reserve(mesh_.positions.size() + splits.size());
-    mesh_.faces.reserve(mesh_.faces.size() + 2 * splits.size());
-    twin_.reserve(twin_.size() + 6 * splits.size());
-    undo_.reserve(undo_.size() + splits.size());
-    for (const VertexSplit& split : splits) {
-        if (Status valid = check(split); !valid) return valid;
-        apply(split);
+bool ProgressiveMesh::has_valence_of(std::uint32_t least, HalfEdge corner) const {
+    HalfEdge at = corner;
+    for (std::uint32_t valence = 1; valence < least; ++valence) {
+        at = twin_[prev(at)];
+        if (at == corner) return false;
+    }
+    return true;
+}
+
+/// Walks both rings at once: the smaller one decides.
+bool ProgressiveMesh::are_joined(HalfEdge corner, HalfEdge other) const {
+    const std::uint32_t from = origin(mesh_, corner);
+    const std::uint32_t to = origin(mesh_, other);
+    HalfEdge at = corner;
+    HalfEdge at_other = other;
+    do {
+        if (origin(mesh_, next(at)) == to || origin(mesh_, next(at_other)) == from) return true;
+        at = twin_[prev(at)];
+        at_other = twin_[prev(at_other)];
+    } while (at != corner && at_other != other);
+    return false;
+}
+
+Status ProgressiveMesh::check(EdgeFlip flip) const {
+    const HalfEdge h = flip.half_edge;
+    if (h >= twin_.size()) {
+        return corrupt(std::to_string(h) + " is no half-edge; the mesh has " + std::to_string(twin_.size()));
+    }
+    const HalfEdge g = twin_[h];
+    for (const HalfEdge corner : {h, prev(h), g, prev(g)}) {
+        if (is_ghost(origin(mesh_, corner)))
+            return corrupt("beside vertex " + std::to_string(origin(mesh_, corner)) + ", a ghost");
+    }
+    for (const HalfEdge end : {h, g}) {
+        if (!has_valence_of(4, end)) {
+            return corrupt("at vertex " + std::to_string(origin(mesh_, end)) +
+                           " of valence under 4, which would keep under 3 edges");
+        }
+    }
+    if (are_joined(prev(h), prev(g))) {
+        return corrupt("to vertices " + std::to_string(origin(mesh_, prev(h))) + " and " +
+                       std::to_string(origin(mesh_, prev(g))) + ", which have an edge already");
     }
     return Done{};
+}
+
+Status ProgressiveMesh::check(const VertexMove& move) const {
+    if (move.vertex >= mesh_.vertex_count()) {
+        return corrupt(std::to_string(move.vertex) + " is no vertex; the mesh has " + std::to_string(mesh_.vertex_count()));
+    }
+    if (is_ghost(move.vertex)) return corrupt("of vertex " + std::to_string(move.vertex) + ", a ghost");
+    if (!is_valid_position(move.position)) return corrupt("a coordinate is not finite or beyond 1e15");
+    return Done{};
+}
+
+template <class AnyRecord>
+Status ProgressiveMesh::take(const AnyRecord& record) {
+    if (Status valid = check(record); !valid) {
+        Error error = valid.error();
+        error.message = "record " + std::to_string(records()) + ", " + name_of(record) + ": " + error.message;
+        return error;
+    }
+    apply(record);
+    return Done{};
+}
+
+Status ProgressiveMesh::refine(const RecordSpan& records) {
+    assert(records.consistent());
+    make_room(mesh_.positions, records.splits.size());
+    make_room(mesh_.faces, 2 * records.splits.size());
+    make_room(twin_, 6 * records.splits.size());
+    make_room(applied_, records.size());
+    make_room(edited_, records.flips.size() + records.moves.size());
+    make_room(lay_, records.splits.size() + records.moves.size());
+    auto split = records.splits.begin();
+    auto flip = records.flips.begin();
+    auto move = records.moves.begin();
+    for (const RecordKind kind : records.kinds) {
+        Status taken = kind == RecordKind::kSplit ? take(*split++) : kind == RecordKind::kFlip ? take(*flip++) : take(*move++);
+        if (!taken) return taken;
+    }
+    return Done{};
+}
+
+void ProgressiveMesh::apply(EdgeFlip flip) {
+    turn_clockwise(mesh_, twin_, flip.half_edge);
+    edited_.push_back(flip.half_edge);
+    applied_.push_back(RecordKind::kFlip);
+}
+
+void ProgressiveMesh::apply(const VertexMove& move) {
+    lay_.push_back(mesh_.positions[move.vertex]);
+    mesh_.positions[move.vertex] = move.position;
+    edited_.push_back(move.vertex);
+    applied_.push_back(RecordKind::kMove);
 }
 
 void ProgressiveMesh::apply(const VertexSplit& split) {
@@ -106,12 +224,15 @@ void ProgressiveMesh::apply(const VertexSplit& split) {
     twin_[before] = vb;
     twin_[fan_begin] = bw;
 
-    undo_.push_back(mesh_.positions[v]);
+    lay_.push_back(mesh_.positions[v]);
     mesh_.positions[v] = split.kept;
     mesh_.positions.push_back(split.added);
+    if (is_ghost(b) || is_ghost(e)) border_splits_.push_back(static_cast<std::uint32_t>(level_));
+    ++level_;
+    applied_.push_back(RecordKind::kSplit);
 }
 
-void ProgressiveMesh::undo_last() {
+void ProgressiveMesh::undo_split() {
     const auto first = static_cast<HalfEdge>(twin_.size() - 6);
     const std::uint32_t v = origin(mesh_, first);
     const HalfEdge fan_end = twin_[first + 1];
@@ -129,21 +250,47 @@ void ProgressiveMesh::undo_last() {
     twin_.resize(first);
     mesh_.faces.resize(mesh_.faces.size() - 2);
     mesh_.positions.pop_back();
-    mesh_.positions[v] = undo_.back();
-    undo_.pop_back();
+    mesh_.positions[v] = lay_.back();
+    lay_.pop_back();
+    --level_;
+    if (!border_splits_.empty() && border_splits_.back() == level_) border_splits_.pop_back();
 }
 
-void ProgressiveMesh::coarsen(std::size_t count) {
-    for (std::size_t i = std::min(count, level()); i > 0; --i) undo_last();
+void ProgressiveMesh::undo_last() {
+    const RecordKind kind = applied_.back();
+    applied_.pop_back();
+    if (kind == RecordKind::kSplit) {
+        undo_split();
+        return;
+    }
+    const std::uint32_t edited = edited_.back();
+    edited_.pop_back();
+    if (kind == RecordKind::kFlip) {
+        turn_counter_clockwise(mesh_, twin_, edited);
+        return;
+    }
+    mesh_.positions[edited] = lay_.back();
+    lay_.pop_back();
 }
+
+void ProgressiveMesh::rewind(std::size_t records) {
+    while (applied_.size() > records) undo_last();
+}
+
+void ProgressiveMesh::coarsen(std::size_t levels) {
+    const std::size_t target = level_ - std::min(levels, level_);
+    while (!applied_.empty() && (level_ > target || applied_.back() != RecordKind::kSplit)) undo_last();
+}
+
+TriangleMesh ProgressiveMesh::visible() const { return visible_mesh(mesh_, ghosts_); }
 
 TriangleMesh mesh_at(const MultiresMesh& mrr, std::size_t level) {
-    Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(mrr.base);
+    Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(mrr.base, mrr.ghosts);
     assert(mesh.has_value());
-    const std::size_t splits = std::min(level, mrr.splits.size());
-    [[maybe_unused]] const Status refined = mesh->refine({mrr.splits.data(), splits});
+    const std::size_t records = mrr.record_of_level(std::min(level, mrr.levels()));
+    [[maybe_unused]] const Status refined = mesh->refine(mrr.records.slice(0, records));
     assert(refined.has_value());
-    return mesh->mesh();
+    return mesh->visible();
 }
 
 }  // namespace vsplit

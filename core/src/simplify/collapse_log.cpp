@@ -1,6 +1,7 @@
 #include "simplify/collapse_log.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vsplit {
 namespace {
@@ -24,39 +25,101 @@ private:
     std::vector<HalfEdge> first_;
 };
 
+/// What is left of the simplified mesh, and the numbers its parts get.
+class Builder {
+public:
+    Builder(const HalfEdgeMesh& mesh, std::uint32_t ghosts)
+        : vertex_(mesh.vertex_count(), kNone), half_edge_(mesh.half_edge_count()) {
+        mrr_.ghosts = ghosts;
+        for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+            if (mesh.outgoing(v) == kNone) continue;
+            vertex_[v] = mrr_.base.vertex_count();
+            mrr_.base.positions.push_back(mesh.position(v));
+        }
+        for (HalfEdge h = 0; h < mesh.half_edge_count(); h += 3) {
+            if (mesh.removed(h)) continue;
+            half_edge_.set_face(h, mrr_.base.face_count());
+            mrr_.base.faces.push_back({vertex_[mesh.origin(h)], vertex_[mesh.origin(h + 1)], vertex_[mesh.origin(h + 2)]});
+        }
+        mrr_.ghost_faces = count_ghost_faces(mrr_.base, ghosts);
+    }
+
+    void add_flip(HalfEdge h) { mrr_.records.push_back(EdgeFlip{half_edge_[h]}); }
+    void add_move(const VertexMove& move) { mrr_.records.push_back(VertexMove{vertex_[move.vertex], move.position}); }
+
+    /// The faces of ij and ji come back, and vertex `removed`. The anchor's face was alive when the collapse was made, so it is
+    /// numbered by now.
+    void add_split(VertexSplit split, HalfEdge ij, HalfEdge ji, std::uint32_t removed) {
+        const auto number = static_cast<std::uint32_t>(mrr_.levels());
+        const std::uint32_t first_face = mrr_.base.face_count() + 2 * number;
+        split.anchor = half_edge_[split.anchor];
+        mrr_.records.push_back(split);
+        vertex_[removed] = mrr_.base.vertex_count() + number;
+        half_edge_.set_face(ij, first_face);
+        half_edge_.set_face(ji, first_face + 1);
+    }
+
+    [[nodiscard]] MultiresMesh& mrr() { return mrr_; }
+
+private:
+    MultiresMesh mrr_;
+    std::vector<std::uint32_t> vertex_;
+    Renumbering half_edge_;
+};
+
 }  // namespace
 
 void CollapseLog::record(const HalfEdgeMesh& mesh, const EdgeStar& star) {
+    keep_net_moves(mesh);
     const std::uint32_t i = mesh.origin(star.ij);
     const std::uint32_t j = mesh.origin(star.ji);
-    entries_.push_back({star.ij, star.ji, star.jb, j, mesh.valence(j) - 2, mesh.position(i), mesh.position(j)});
+    Entry entry;
+    entry.ij = star.ij;
+    entry.ji = star.ji;
+    entry.anchor = star.jb;
+    entry.kept = i;
+    entry.removed = j;
+    entry.steps = mesh.valence(j) - 2;
+    entry.least_wing = std::min(mesh.origin(star.ei), mesh.origin(star.bj));
+    entry.first_flip = static_cast<std::uint32_t>(flips_.size());
+    entry.first_move = static_cast<std::uint32_t>(moves_.size());
+    entry.kept_at = mesh.position(i);
+    entry.removed_at = mesh.position(j);
+    entries_.push_back(entry);
 }
 
-MultiresMesh CollapseLog::build(const HalfEdgeMesh& mesh) {
-    MultiresMesh mrr;
-    std::vector<std::uint32_t> vertex(mesh.vertex_count(), kNone);
-    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-        if (mesh.outgoing(v) == kNone) continue;
-        vertex[v] = mrr.base.vertex_count();
-        mrr.base.positions.push_back(mesh.position(v));
+void CollapseLog::record_flip(HalfEdge h) {
+    if (!entries_.empty()) flips_.push_back(h);
+}
+
+void CollapseLog::record_move(std::uint32_t v, const Vec3& before) {
+    if (entries_.empty() || v == entries_.back().kept) return;
+    if (v >= moved_in_.size()) moved_in_.resize(std::max<std::size_t>(v + std::size_t{1}, 2 * moved_in_.size()), 0);
+    const auto step = static_cast<std::uint32_t>(entries_.size());
+    if (std::exchange(moved_in_[v], step) != step) moves_.push_back({v, before});
+}
+
+/// Drops the moves of the step that ends here whose vertex is back where it lay.
+void CollapseLog::keep_net_moves(const HalfEdgeMesh& mesh) {
+    if (entries_.empty()) return;
+    const auto in_vain = [&mesh](const VertexMove& move) { return mesh.position(move.vertex) == move.position; };
+    moves_.erase(std::remove_if(moves_.begin() + entries_.back().first_move, moves_.end(), in_vain), moves_.end());
+}
+
+MultiresMesh CollapseLog::build(const HalfEdgeMesh& mesh, std::uint32_t ghosts) {
+    keep_net_moves(mesh);
+    Builder builder(mesh, ghosts);
+    builder.mrr().records.reserve(entries_.size(), flips_.size(), moves_.size());
+    for (; !entries_.empty(); entries_.pop_back()) {
+        const Entry& entry = entries_.back();
+        for (; flips_.size() > entry.first_flip; flips_.pop_back()) builder.add_flip(flips_.back());
+        for (std::size_t m = entry.first_move; m < moves_.size(); ++m) builder.add_move(moves_[m]);
+        moves_.resize(entry.first_move);
+        if (entry.least_wing < ghosts) builder.mrr().border_splits.push_back(static_cast<std::uint32_t>(builder.mrr().levels()));
+        builder.add_split({entry.anchor, entry.steps, entry.kept_at, entry.removed_at}, entry.ij, entry.ji, entry.removed);
     }
-    Renumbering renumbered(mesh.half_edge_count());
-    for (HalfEdge h = 0; h < mesh.half_edge_count(); h += 3) {
-        if (mesh.removed(h)) continue;
-        renumbered.set_face(h, mrr.base.face_count());
-        mrr.base.faces.push_back({vertex[mesh.origin(h)], vertex[mesh.origin(h + 1)], vertex[mesh.origin(h + 2)]});
-    }
-    mrr.splits.reserve(entries_.size());
-    std::reverse(entries_.begin(), entries_.end());
-    for (const Entry& entry : entries_) {
-        const std::uint32_t first_face = mrr.faces_at(mrr.splits.size());
-        // The anchor's face was alive when the collapse was made, so it is numbered by now.
-        mrr.splits.push_back({renumbered[entry.anchor], entry.steps, entry.kept_at, entry.removed_at});
-        renumbered.set_face(entry.ij, first_face);
-        renumbered.set_face(entry.ji, first_face + 1);
-    }
-    entries_ = {};
-    return mrr;
+    clear();
+    return std::move(builder.mrr());
 }
 
 }  // namespace vsplit

@@ -8,29 +8,51 @@
 
 namespace vsplit {
 
-/// Every collapse in order, and the MRR they make when read backwards.
+/// Every collapse in order with the edits after it, and the MRR they make when read backwards. What was edited before the first
+/// collapse is not kept: the finest level is the mesh as it stands at the first collapse.
 class CollapseLog {
 public:
-    /// Call before the collapse, while the star still stands.
+    /// Call before the collapse, while the star still stands and all edits of the step before are made. O(moves since).
     void record(const HalfEdgeMesh& mesh, const EdgeStar& star);
 
+    /// The edge of h was turned counter-clockwise: HalfEdgeMesh::flip(h). O(1).
+    void record_flip(HalfEdge h);
+
+    /// Vertex v was moved and lay at `before`. Of several moves between two collapses the net one is kept: none where a vertex
+    /// ends where it began, nor for the vertex that the collapse made, which the split puts elsewhere anyway. O(1) amortised.
+    void record_move(std::uint32_t v, const Vec3& before);
+
+    /// Number of collapses.
     [[nodiscard]] std::size_t size() const { return entries_.size(); }
 
+    void clear() { *this = {}; }
+
     /// Numbers what is left of `mesh` as the base mesh (in the order it had), each vertex and pair of faces that went as the
-    /// split that brings them back, and turns faces as VertexSplit wants them. O(faces). Empties the log.
-    [[nodiscard]] MultiresMesh build(const HalfEdgeMesh& mesh);
+    /// split that brings them back, and turns faces as VertexSplit wants them. For each collapse, newest first, come the flips
+    /// after it, last first, the moves, each to where its vertex lay before, and the split. The first `ghosts` vertices of
+    /// `mesh` are ghosts; none of them was collapsed or moved. O(faces + records). Empties the log.
+    [[nodiscard]] MultiresMesh build(const HalfEdgeMesh& mesh, std::uint32_t ghosts = 0);
 
 private:
     struct Entry {
         HalfEdge ij = 0;  // its face comes back as (v, w, e)
         HalfEdge ji = 0;  // its face comes back as (w, v, b)
         HalfEdge anchor = 0;
+        std::uint32_t kept = 0;
         std::uint32_t removed = 0;
         std::uint32_t steps = 0;
+        std::uint32_t least_wing = 0;  // the smaller of e and b: a ghost where one of them is
+        std::uint32_t first_flip = 0;  // of those after the collapse
+        std::uint32_t first_move = 0;
         Vec3 kept_at = Vec3::Zero();
         Vec3 removed_at = Vec3::Zero();
     };
+    void keep_net_moves(const HalfEdgeMesh& mesh);
+
     std::vector<Entry> entries_;
+    std::vector<HalfEdge> flips_;
+    std::vector<VertexMove> moves_;        // positions are those before
+    std::vector<std::uint32_t> moved_in_;  // per vertex: collapses made when it was moved last
 };
 
 }  // namespace vsplit

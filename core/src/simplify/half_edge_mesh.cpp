@@ -56,4 +56,29 @@ void HalfEdgeMesh::collapse(const EdgeStar& s, const Vec3& position) {
     live_faces_ -= 2;
 }
 
+void HalfEdgeMesh::flip(HalfEdge h) {
+    const HalfEdge g = twin(h);
+    const HalfEdge bc = next(h), ca = prev(h), ad = next(g), db = prev(g);
+    const std::uint32_t a = origin(h), b = origin(g), c = origin(ca), d = origin(db);
+    const HalfEdge cb = twin(bc), ac = twin(ca), da = twin(ad), bd = twin(db);
+    half_edges_[h].origin = d;
+    half_edges_[bc].origin = c;
+    half_edges_[ca].origin = a;
+    half_edges_[g].origin = c;
+    half_edges_[ad].origin = d;
+    half_edges_[db].origin = b;
+    pair(bc, ac);  // now c -> a
+    pair(ca, da);  // now a -> d
+    pair(ad, bd);  // now d -> b
+    pair(db, cb);  // now b -> c
+    outgoing_[a] = ca;
+    outgoing_[b] = db;
+    outgoing_[c] = g;
+    outgoing_[d] = h;
+    --valence_[a];
+    --valence_[b];
+    ++valence_[c];
+    ++valence_[d];
+}
+
 }  // namespace vsplit

@@ -18,7 +18,7 @@ struct EdgeStar {
     HalfEdge bi = 0, jb = 0;          ///< twins of ib and bj
 };
 
-/// Connectivity of a closed 2-manifold that only ever gets coarser: 24 bytes a face, faces and vertices keep their numbers.
+/// Connectivity of a closed 2-manifold that never gets finer: 24 bytes a face, faces and vertices keep their numbers.
 /// Positions live here too, since every walk needs them.
 class HalfEdgeMesh {
 public:
@@ -58,6 +58,12 @@ public:
             h = turn(h);
         } while (h != first);
     }
+
+    /// Turns the edge of h counter-clockwise within the quad of its two faces; see turn_counter_clockwise.
+    /// \pre both ends have valence 4 or more, and the vertices opposite have no edge yet. O(1).
+    void flip(HalfEdge h);
+
+    void move(std::uint32_t v, const Vec3& to) { positions_[v] = to; }
 
 private:
     void pair(HalfEdge h, HalfEdge g) {

@@ -62,4 +62,7 @@ struct MeshReport {
 /// \return NON_MANIFOLD or OPEN_MESH naming the first edges at fault, EMPTY_INPUT for no faces.
 [[nodiscard]] Status require_closed_manifold(const MeshReport& report);
 
+/// The same, open boundaries allowed. \return NON_MANIFOLD naming the first edges or vertices at fault, EMPTY_INPUT for no faces.
+[[nodiscard]] Status require_manifold(const MeshReport& report);
+
 }  // namespace vsplit

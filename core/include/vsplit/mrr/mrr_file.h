@@ -18,11 +18,11 @@ struct StoredMrr {
     std::string description;  ///< proto3 JSON of a vsplit.v1.Representation when written by `vsplit`; opaque to core
 };
 
-/// The bytes of a `.vsplit` file; the same input gives the same bytes. O(splits).
+/// The bytes of a `.vsplit` file; the same input gives the same bytes. O(records).
 [[nodiscard]] std::string encode_mrr(const StoredMrr& stored);
 
 /// \return UNKNOWN_FORMAT, UNSUPPORTED (a newer version), TRUNCATED_INPUT or CORRUPT with the byte offset. Sizes in headers are
-/// checked against the bytes that are there before memory is taken. Every split is tried once. O(splits * ring).
+/// checked against the bytes that are there before memory is taken. Every record is tried once. O(records * ring).
 [[nodiscard]] Expected<StoredMrr> decode_mrr(std::span<const std::byte> bytes);
 
 /// Writes beside `path` and renames. FILE_ACCESS on failure.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "vsplit/base/expected.h"
@@ -9,49 +8,90 @@
 
 namespace vsplit {
 
-/// A mesh that moves between the levels of an MRR by applying and undoing vertex splits. The server and every client build
-/// their meshes through this class, so a level is the same everywhere, bit for bit.
+/// A mesh that moves between the levels of an MRR by applying and undoing records. The server and every client build their
+/// meshes through this class, so a level is the same everywhere, bit for bit.
 ///
-///     auto mesh = ProgressiveMesh::from_base(mrr.base);
-///     mesh->refine(mrr.splits);      // to the finest level
+///     auto mesh = ProgressiveMesh::from_base(mrr.base, mrr.ghosts);
+///     mesh->refine(mrr.records);     // to the finest level
 ///     mesh->coarsen(100);            // 100 levels down again
-///     draw(mesh->mesh());
+///     draw(mesh->visible());
 ///
-/// Splits may come from the network: each is checked against the mesh before anything is changed.
-/// Not thread-safe; distinct objects are independent. Memory: 24 bytes a face for connectivity, 24 a vertex for positions, 24 a
-/// split for undoing.
+/// Records may come from the network: each is checked against the mesh before anything is changed.
+/// Not thread-safe; distinct objects are independent. Memory: 24 bytes a face for connectivity, 24 a vertex for positions, and
+/// for undoing 25 a split, 5 a flip, 29 a move.
 class ProgressiveMesh {
 public:
-    /// \return NON_MANIFOLD, OPEN_MESH, INDEX_OUT_OF_RANGE or INVALID_COORDINATE when `base` is no closed 2-manifold.
-    /// O(faces log faces).
-    [[nodiscard]] static Expected<ProgressiveMesh> from_base(TriangleMesh base);
+    /// `ghosts`: how many of the first vertices are ghosts (see MultiresMesh).
+    /// \return NON_MANIFOLD, OPEN_MESH, INDEX_OUT_OF_RANGE or INVALID_COORDINATE when `base` is no closed 2-manifold; CORRUPT for
+    /// more ghosts than vertices or a face that joins two; EMPTY_INPUT when no face is visible. O(faces log faces).
+    [[nodiscard]] static Expected<ProgressiveMesh> from_base(TriangleMesh base, std::uint32_t ghosts = 0);
 
-    /// Applies splits in order; the first is split number level(). On CORRUPT the mesh stands at the level of the splits before
-    /// the bad one, whose number the message gives. O(splits * ring).
-    [[nodiscard]] Status refine(std::span<const VertexSplit> splits);
+    /// Applies records in order; the first is record number records(). Any run will do, also one that begins or ends between
+    /// two splits.
+    ///
+    /// Refused are: a split whose anchor is no corner, that moves no face or all, at a ghost or between two; a flip of no
+    /// half-edge, of an edge with an end of valence 3, of one beside a ghost, or to an edge that is there already; a move of no
+    /// vertex or of a ghost; a coordinate that is not finite or beyond 1e15.
+    /// \return CORRUPT naming the record's number; the mesh then stands as the records before it left it. O(records * ring).
+    /// \pre records.consistent().
+    [[nodiscard]] Status refine(const RecordSpan& records);
 
-    /// Undoes the last `count` splits, at most all. O(count * ring). Needs no records.
-    void coarsen(std::size_t count);
+    /// Undoes the edits after the last split, then the last `levels` splits, at most all, each with the edits before it: the mesh
+    /// is a level again. O(records undone * ring). Needs no records.
+    void coarsen(std::size_t levels);
+
+    /// Undoes records until `records` of those applied are left; nothing when there are no more than that. O(as coarsen).
+    void rewind(std::size_t records);
 
     /// Splits applied so far.
-    [[nodiscard]] std::size_t level() const { return undo_.size(); }
+    [[nodiscard]] std::size_t level() const { return level_; }
 
-    /// The mesh at this level. The reference stays valid; its content changes with refine and coarsen.
+    /// Records applied so far.
+    [[nodiscard]] std::size_t records() const { return applied_.size(); }
+
+    /// The mesh as it stands, ghosts included. The reference stays valid; its content changes with refine and coarsen.
     [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
+
+    /// The mesh as it stands, without ghosts. O(faces).
+    [[nodiscard]] TriangleMesh visible() const;
+
+    [[nodiscard]] std::uint32_t ghosts() const { return ghosts_; }
+
+    /// Splits applied so far that added one visible face; see MultiresMesh.
+    [[nodiscard]] const std::vector<std::uint32_t>& border_splits() const { return border_splits_; }
 
 private:
     ProgressiveMesh() = default;
 
     [[nodiscard]] Status check(const VertexSplit& split) const;
+    [[nodiscard]] Status check(EdgeFlip flip) const;
+    [[nodiscard]] Status check(const VertexMove& move) const;
+    [[nodiscard]] bool is_ghost(std::uint32_t vertex) const { return vertex < ghosts_; }
+    [[nodiscard]] bool has_valence_of(std::uint32_t least, std::uint32_t corner) const;
+    [[nodiscard]] bool are_joined(std::uint32_t corner, std::uint32_t other) const;
+
     void apply(const VertexSplit& split);
+    void apply(EdgeFlip flip);
+    void apply(const VertexMove& move);
+    template <class AnyRecord>
+    [[nodiscard]] Status take(const AnyRecord& record);
+
+    void undo_split();
     void undo_last();
 
     TriangleMesh mesh_;
     std::vector<std::uint32_t> twin_;  // of half-edge 3f + c, which leaves corner c of face f along it
-    std::vector<Vec3> undo_;           // where the vertex of each applied split lay before
+    std::uint32_t ghosts_ = 0;
+    std::size_t level_ = 0;
+    std::vector<std::uint32_t> border_splits_;
+    // What undoing takes; the records themselves are not kept.
+    std::vector<RecordKind> applied_;
+    std::vector<std::uint32_t> edited_;  // half-edge of each flip, vertex of each move
+    std::vector<Vec3> lay_;              // where the vertex of each split and move lay before
 };
 
-/// The mesh of `mrr` at a level (clamped to the last). O(level). \pre `mrr` was made by this library (asserts otherwise).
+/// What is visible of `mrr` at a level (clamped to the last). O(records). \pre `mrr` was made by this library (asserts
+/// otherwise).
 [[nodiscard]] TriangleMesh mesh_at(const MultiresMesh& mrr, std::size_t level);
 
 }  // namespace vsplit

@@ -4,22 +4,20 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "vsplit/base/expected.h"
-#include "vsplit/mrr/multires_mesh.h"
+#include "vsplit/mrr/records.h"
 
 namespace vsplit {
 
-/// How the splits of a block are laid out as bytes (docs/format.md).
+/// How the records of a block are laid out as bytes (docs/format.md).
 enum class RecordEncoding : std::uint32_t {
-    kFloat64 =
-        1,  ///< bit-exact: columns of anchor (u32), steps (u32), kept (3 f64), added (3 f64), little-endian; 56 bytes a split
+    kFloat64 = 1,  ///< bit-exact columns, little-endian: 57 bytes a split, 5 a flip, 29 a move
 };
 
-/// A run of splits as it travels and as it is stored.
+/// A run of records as it travels and as it is stored.
 struct RecordBlock {
-    std::uint32_t first = 0;  ///< number of the first split
+    std::uint32_t first = 0;  ///< number of the first record
     std::uint32_t count = 0;
     RecordEncoding encoding = RecordEncoding::kFloat64;
     std::string payload;
@@ -29,15 +27,15 @@ struct RecordBlock {
 /// No block's payload is larger.
 inline constexpr std::size_t kMaxBlockBytes = std::size_t{256} * 1024;
 
-/// Splits that fit one block of this encoding.
-[[nodiscard]] std::uint32_t splits_per_block(RecordEncoding encoding);
+/// How many of `records`, from the first on, fit one block of this encoding; not 0 unless there are none. O(the count).
+[[nodiscard]] std::size_t records_that_fit(const RecordSpan& records, RecordEncoding encoding);
 
-/// \pre splits.size() <= splits_per_block(encoding). O(splits).
-[[nodiscard]] RecordBlock encode_block(std::span<const VertexSplit> splits, std::uint32_t first, RecordEncoding encoding);
+/// \pre records.consistent(), and records_that_fit(records, encoding) is records.size(). O(records).
+[[nodiscard]] RecordBlock encode_block(const RecordSpan& records, std::uint32_t first, RecordEncoding encoding);
 
-/// \return CORRUPT naming the block by its first split, when the checksum, the size or the encoding does not fit. Whether the
-/// splits fit a mesh is for ProgressiveMesh::refine to say. O(splits).
-[[nodiscard]] Expected<std::vector<VertexSplit>> decode_block(const RecordBlock& block);
+/// \return CORRUPT naming the block by its first record, when the checksum, the size, a kind or the encoding does not fit.
+/// Whether the records fit a mesh is for ProgressiveMesh::refine to say. O(records).
+[[nodiscard]] Expected<RecordList> decode_block(const RecordBlock& block);
 
 /// CRC-32C of bytes.
 [[nodiscard]] std::uint32_t crc32c(std::span<const std::byte> bytes);

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <stop_token>
 
 #include "vsplit/base/expected.h"
@@ -41,8 +40,10 @@ struct UploadOptions {
 /// ends the call with that error.
 struct EventHandlers {
     std::function<void(const v1::Progress&)> on_progress;
-    std::function<Status(TriangleMesh base)> on_base_mesh;  ///< once, whole, before any split; sizes checked, indices not
-    std::function<Status(std::uint32_t first, std::span<const VertexSplit> splits)> on_splits;  ///< a block, checksum verified
+    /// Once, whole, before any record; sizes are checked, indices and `ghosts` (see MultiresMesh) are not.
+    std::function<Status(TriangleMesh base, std::uint32_t ghosts)> on_base_mesh;
+    /// A block, its checksum verified; `first` is the number of its first record.
+    std::function<Status(std::uint32_t first, const RecordSpan& records)> on_records;
 };
 
 }  // namespace vsplit::client

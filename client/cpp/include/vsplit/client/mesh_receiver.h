@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 
 #include "vsplit/base/expected.h"
 #include "vsplit/client/call_options.h"
@@ -20,7 +19,7 @@ namespace vsplit::client {
 ///     if (Status shown = receiver.show(2000); shown) use(receiver.mesh());   // coarser: needs no server
 ///
 /// Everything that comes is checked by ProgressiveMesh before it is kept. Not thread-safe. Memory: that of ProgressiveMesh and
-/// 56 bytes a split.
+/// of RecordList; once more the mesh shown where it has open boundaries.
 class MeshReceiver {
 public:
     /// `max_faces`: LIMIT_EXCEEDED when a stream builds more.
@@ -30,13 +29,13 @@ public:
     [[nodiscard]] EventHandlers handlers(std::function<void(const v1::Progress&)> on_progress = {});
 
     /// Starts anew with a base mesh. \return what ProgressiveMesh::from_base returns, LIMIT_EXCEEDED.
-    [[nodiscard]] Status begin(TriangleMesh base);
+    [[nodiscard]] Status begin(TriangleMesh base, std::uint32_t ghosts = 0);
 
-    /// Adds splits and shows them. \return OUT_OF_ORDER when `first` is not the number of splits held or no base mesh came
-    /// before; CORRUPT for a split that does not fit the mesh; LIMIT_EXCEEDED.
-    [[nodiscard]] Status append(std::uint32_t first, std::span<const VertexSplit> splits);
+    /// Adds records and shows them; a run may end between two splits. \return OUT_OF_ORDER when `first` is not the number of
+    /// records held or no base mesh came before; CORRUPT for a record that does not fit the mesh; LIMIT_EXCEEDED.
+    [[nodiscard]] Status append(std::uint32_t first, const RecordSpan& records);
 
-    /// Moves `mesh()` to the nearest resolution held. \return OUT_OF_ORDER when nothing is held. O(levels between).
+    /// Moves `mesh()` to the nearest resolution held. \return OUT_OF_ORDER when nothing is held. O(records between).
     [[nodiscard]] Status show(std::uint32_t faces);
 
     /// Whether a base mesh has come.
@@ -45,18 +44,24 @@ public:
     /// Faces of the finest resolution held: SetResolutionRequest.faces_held. 0 when nothing is.
     [[nodiscard]] std::uint32_t faces_held() const { return has_mesh() ? held_.faces_max() : 0; }
 
-    /// The mesh shown. \pre has_mesh(). The reference stays valid until begin() or the object's end.
-    [[nodiscard]] const TriangleMesh& mesh() const { return progressive_->mesh(); }
+    /// Number of records held: SetResolutionRequest.resume_from, to go on where a stream broke off.
+    [[nodiscard]] std::uint32_t records_held() const { return static_cast<std::uint32_t>(held_.records.size()); }
+
+    /// The mesh shown, without ghosts. \pre has_mesh(). The reference stays valid until begin() or the object's end; its content
+    /// is that of the last call. O(1), O(faces) after a change where there are open boundaries.
+    [[nodiscard]] const TriangleMesh& mesh() const;
 
     /// All that has come.
     [[nodiscard]] const MultiresMesh& held() const { return held_; }
 
 private:
-    [[nodiscard]] Status show_level(std::size_t level);
+    [[nodiscard]] Status show_records(std::size_t records);
 
     std::uint32_t max_faces_;
     MultiresMesh held_;
     std::optional<ProgressiveMesh> progressive_;
+    mutable std::optional<std::size_t> visible_records_;  // what visible_ shows; only with ghosts
+    mutable TriangleMesh visible_;
 };
 
 }  // namespace vsplit::client

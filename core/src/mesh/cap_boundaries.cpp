@@ -1,0 +1,75 @@
+#include "mesh/cap_boundaries.h"
+
+#include <utility>
+#include <vector>
+
+#include "mesh/half_edges.h"
+#include "vsplit/mesh/inspect.h"
+
+namespace vsplit {
+namespace {
+
+/// The loops of a mesh's boundary, each as its half-edges in the order in which they follow one another.
+std::vector<std::vector<HalfEdge>> boundary_loops(const TriangleMesh& mesh) {
+    const std::vector<HalfEdge> twin = half_edge_twins(mesh);
+    std::vector<HalfEdge> leaving(mesh.positions.size(), kNone);  // the boundary half-edge that leaves a vertex: one at most
+    for (HalfEdge h = 0; h < twin.size(); ++h) {
+        if (twin[h] == kNone) leaving[origin(mesh, h)] = h;
+    }
+    std::vector<std::vector<HalfEdge>> loops;
+    for (HalfEdge first = 0; first < twin.size(); ++first) {
+        if (twin[first] != kNone || leaving[origin(mesh, first)] == kNone) continue;
+        std::vector<HalfEdge>& loop = loops.emplace_back();
+        for (HalfEdge h = first; h != kNone; h = leaving[origin(mesh, next(h))]) {
+            loop.push_back(h);
+            leaving[origin(mesh, h)] = kNone;
+        }
+    }
+    return loops;
+}
+
+Vec3 centroid(const TriangleMesh& mesh, const std::vector<HalfEdge>& loop) {
+    Vec3 sum = Vec3::Zero();
+    for (const HalfEdge h : loop) sum += mesh.positions[origin(mesh, h)];
+    return sum / static_cast<double>(loop.size());
+}
+
+}  // namespace
+
+Expected<CappedMesh> cap_boundaries(TriangleMesh mesh) {
+    if (Status manifold = require_manifold(inspect(mesh)); !manifold) return manifold.error();
+    const std::vector<std::vector<HalfEdge>> loops = boundary_loops(mesh);
+    CappedMesh capped;
+    capped.ghosts = static_cast<std::uint32_t>(loops.size());
+    if (loops.empty()) {
+        capped.mesh = std::move(mesh);
+        return capped;
+    }
+    std::vector<Triangle> ghost_faces;
+    capped.mesh.positions.reserve(loops.size() + mesh.positions.size());
+    for (std::uint32_t ghost = 0; ghost < capped.ghosts; ++ghost) {
+        capped.mesh.positions.push_back(centroid(mesh, loops[ghost]));
+        for (const HalfEdge h : loops[ghost]) {
+            ghost_faces.push_back({origin(mesh, next(h)) + capped.ghosts, origin(mesh, h) + capped.ghosts, ghost});
+        }
+    }
+    capped.mesh.positions.insert(capped.mesh.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    capped.mesh.faces = std::move(mesh.faces);
+    for (Triangle& face : capped.mesh.faces) {
+        for (std::uint32_t& vertex : face) vertex += capped.ghosts;
+    }
+    capped.mesh.faces.insert(capped.mesh.faces.end(), ghost_faces.begin(), ghost_faces.end());
+    return capped;
+}
+
+TriangleMesh visible_mesh(TriangleMesh complex, std::uint32_t ghosts) {
+    if (ghosts == 0) return complex;
+    std::erase_if(complex.faces, [ghosts](const Triangle& face) { return touches_ghost(face, ghosts); });
+    for (Triangle& face : complex.faces) {
+        for (std::uint32_t& vertex : face) vertex -= ghosts;
+    }
+    complex.positions.erase(complex.positions.begin(), complex.positions.begin() + ghosts);
+    return complex;
+}
+
+}  // namespace vsplit
