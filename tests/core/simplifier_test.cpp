@@ -22,7 +22,7 @@ namespace {
 SimplifyInput make_input(const TriangleMesh& mesh, double tolerance_share) {
     SubdividedMesh same{mesh, std::vector<std::uint32_t>(mesh.faces.size())};
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) same.parent[f] = f;
-    return prepare(mesh, std::move(same), {40, 10, tolerance_share * bounding_box(mesh).diagonal(), 4});
+    return prepare(mesh, std::move(same), {FeatureOptions{}, tolerance_share * bounding_box(mesh).diagonal(), 4});
 }
 
 ControlPolicy control_policy(const TriangleMesh& mesh) {

@@ -84,14 +84,14 @@ std::string reason_for(const Violation& violation, bool coarsest) {
 ControlOptions default_options(const TriangleMesh& mesh, const ControlOptions& options) {
     ControlOptions used = options;
     used.subdivisions = options.subdivisions.value_or(kDefaultSubdivisions);
-    used.tolerance = options.tolerance ? *options.tolerance : kDefaultToleranceShare * bounding_box(mesh).diagonal();
+    used.mode = options.mode.value_or(Mode::kExtended);
+    fill_tolerances(bounding_box(mesh).diagonal(), used);
     used.min_stretch = options.min_stretch.value_or(kStretchFloor);
     used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
     used.faces = options.faces ? *options.faces : std::max(mesh.face_count(), options.faces_min.value_or(kLeastFaces));
     used.faces_min = options.faces_min.value_or(kLeastFaces);
-    used.mode = options.mode.value_or(Mode::kStrict);
     return used;
 }
 
@@ -139,10 +139,16 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
 
     Expected<SubdividedMesh> subdivided = subdivide(mesh, used, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    SimplifyInput input = prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min});
-    Expected<MultiresMesh> mrr = simplify(std::move(input), policy_of(used, bounding_box(mesh).diagonal()), context);
+    SimplifyInput input = prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min, *used.faces});
+    if (used.max_deviation) guard(input, mesh, *used.max_deviation);
+    const std::shared_ptr<const SurfaceIndex> source = input.source;
+    const ControlPolicy policy = policy_of(used, bounding_box(mesh).diagonal());
+    Expected<MultiresMesh> mrr = *used.mode == Mode::kExtended
+                                     ? simplify(std::move(input), Extended<ControlPolicy>{policy}, context)
+                                     : simplify(std::move(input), policy, context);
     if (!mrr) return mrr.error();
     MethodResult result = describe_resolution(std::move(*mrr), *used.faces);
+    if (Status measured = measure(result, mesh, source.get(), options.max_deviation, context); !measured) return measured.error();
     result.options = used;
     result.violations = find_violations(mesh_at(result.mrr, result.mrr.level_for(result.faces)), used);
     for (Violation& violation : result.violations)

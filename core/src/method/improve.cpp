@@ -12,24 +12,43 @@
 namespace vsplit {
 namespace {
 
-constexpr double kDefaultSizeShare = 0.01;  // of the diagonal
+/// What is taken where nothing is given: the subdivision size as a share of the diagonal, and the mean edge of the result over it.
+/// The paper's method needs edges well under those of the result; with flips and moves the same size does.
+struct DefaultSizes {
+    double size_share = 0.01;
+    double mean_edge_over_size = 1.5;
+};
+constexpr DefaultSizes kStrictSizes{0.01, 1.5};
+constexpr DefaultSizes kExtendedSizes{0.015, 1};
+
 constexpr double kSizeGrowth = 1.25;
 constexpr std::uint64_t kDefaultFaceBudget = 1'000'000;
-constexpr double kMeanEdgeOverSize = 1.5;  // the mean edge of the default resolution
-/// Where nothing more can be collapsed within the tolerance shape has suffered; with twice the faces it is near its best.
+/// Strict mode: where nothing more can be collapsed within the tolerance shape has suffered; with twice the faces it is near its
+/// best.
 constexpr std::uint32_t kFacesOverCoarsest = 2;
 constexpr double kEquilateralArea = 0.4330127018922193;  // of edge 1
 
-/// 1 % of the diagonal, or the next larger size that keeps to what an interactive user waits for.
-double default_subdivision_size(const TriangleMesh& mesh, double diagonal, std::uint64_t host_limit) {
+double edge_of_faces(const TriangleMesh& mesh, std::uint32_t faces) {
+    return std::sqrt(surface_area(mesh) / (kEquilateralArea * faces));
+}
+
+/// `size`, or the next larger one that keeps to what an interactive user waits for.
+double affordable_size(const TriangleMesh& mesh, double size, double diagonal, std::uint64_t host_limit) {
     const std::uint64_t face_limit = std::min(host_limit, kDefaultFaceBudget);
-    double size = diagonal * kDefaultSizeShare;
     while (size < diagonal && predict_subdivision(mesh, size, face_limit) > face_limit) size *= kSizeGrowth;
     return size;
 }
 
-std::uint32_t default_faces(const TriangleMesh& mesh, double subdivision_size) {
-    const double edge = kMeanEdgeOverSize * subdivision_size;
+double default_subdivision_size(const TriangleMesh& mesh, const ImproveOptions& options, double diagonal,
+                                std::uint64_t host_limit) {
+    if (options.mode == Mode::kStrict) return affordable_size(mesh, kStrictSizes.size_share * diagonal, diagonal, host_limit);
+    const double size = options.faces ? edge_of_faces(mesh, *options.faces) : kExtendedSizes.size_share * diagonal;
+    return size > 0 ? affordable_size(mesh, size, diagonal, host_limit) : diagonal;
+}
+
+std::uint32_t default_faces(const TriangleMesh& mesh, const ImproveOptions& used) {
+    const DefaultSizes& sizes = used.mode == Mode::kStrict ? kStrictSizes : kExtendedSizes;
+    const double edge = sizes.mean_edge_over_size * *used.subdivision_size;
     const double faces = surface_area(mesh) / (kEquilateralArea * edge * edge);
     return static_cast<std::uint32_t>(std::clamp(faces, 4.0, 4e9));
 }
@@ -39,16 +58,15 @@ std::uint32_t default_faces(const TriangleMesh& mesh, double subdivision_size) {
 ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits) {
     const double diagonal = bounding_box(mesh).diagonal();
     ImproveOptions used = options;
-    used.subdivision_size =
-        options.subdivision_size ? *options.subdivision_size : default_subdivision_size(mesh, diagonal, limits.max_faces);
-    used.tolerance = options.tolerance.value_or(kDefaultToleranceShare * diagonal);
+    used.mode = options.mode.value_or(Mode::kExtended);
+    if (!used.subdivision_size) used.subdivision_size = default_subdivision_size(mesh, used, diagonal, limits.max_faces);
+    fill_tolerances(diagonal, used);
     used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
     used.faces =
-        options.faces ? *options.faces : std::max(default_faces(mesh, *used.subdivision_size), options.faces_min.value_or(4));
+        options.faces ? *options.faces : std::max(default_faces(mesh, used), options.faces_min.value_or(4));
     used.faces_min = options.faces_min.value_or(kLeastFaces);
-    used.mode = options.mode.value_or(Mode::kStrict);
     return used;
 }
 
@@ -65,11 +83,15 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
 
     Expected<SubdividedMesh> subdivided = subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    SimplifyInput input = prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min});
-    Expected<MultiresMesh> mrr = simplify(std::move(input), ImprovePolicy{}, context);
+    SimplifyInput input = prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min, *used.faces});
+    if (used.max_deviation) guard(input, mesh, *used.max_deviation);
+    const std::shared_ptr<const SurfaceIndex> source = input.source;
+    Expected<MultiresMesh> mrr = *used.mode == Mode::kExtended ? simplify(std::move(input), Extended<ImprovePolicy>{}, context)
+                                                               : simplify(std::move(input), ImprovePolicy{}, context);
     if (!mrr) return mrr.error();
-    if (!options.faces) used.faces = std::max(*used.faces, kFacesOverCoarsest * mrr->faces_min());
+    if (!options.faces && used.mode == Mode::kStrict) used.faces = std::max(*used.faces, kFacesOverCoarsest * mrr->faces_min());
     MethodResult result = describe_resolution(std::move(*mrr), *used.faces);
+    if (Status measured = measure(result, mesh, source.get(), options.max_deviation, context); !measured) return measured.error();
     if (!options.faces) used.faces = result.faces;
     result.options = used;
     result.elapsed = std::chrono::steady_clock::now() - start;

@@ -48,31 +48,41 @@ Status check_sizing_given(const std::optional<SizingOptions>& sizing, const std:
                           const std::optional<Mode>& mode) {
     if (!sizing) return Done{};
     if (Status s = check_sizing(*sizing, max_size); !s) return s;
-    if (mode == Mode::kExtended) return Done{};
-    return Error{Cause::kUnsupported, "sizing comes with the extended mode; in mode STRICT leave it out", "sizing"};
+    static_cast<void>(mode);
+    return Error{Cause::kUnsupported, "sizing comes with a later version; leave it out", "sizing"};
 }
 
 /// What both methods share.
 template <class Options>
 Status check_common(const Options& options, const std::optional<double>& max_size) {
     if (Status s = check_sizing_given(options.sizing, max_size, options.mode); !s) return s;
-    if (options.max_deviation) {
+    if (options.max_deviation && options.mode == Mode::kStrict) {
         return Error{Cause::kUnsupported,
-                     "max_deviation comes with the extended mode, which this version does not offer; leave it out "
-                     "and bound the quadric error with tolerance",
+                     "max_deviation comes with the extended mode; in mode STRICT leave it out and bound the quadric error with "
+                     "tolerance",
                      "max_deviation"};
     }
-    if (options.mode == Mode::kExtended) {
-        return Error{Cause::kUnsupported, "mode EXTENDED is not offered by this version; accepted is STRICT", "mode"};
-    }
+    if (Status s = check_range(options.max_deviation, kPositive, "max_deviation"); !s) return s;
     if (Status s = check_range(options.tolerance, kPositive, "tolerance"); !s) return s;
     if (Status s = check_range(options.feature_angle, kAngle, "feature_angle"); !s) return s;
     if (Status s = check_range(options.feature_weight, kWeight, "feature_weight"); !s) return s;
     return check_faces(options.faces, options.faces_min);
 }
 
+/// Distances are differences of coordinates, which have so many digits.
+Status check_resolved(const TriangleMesh& source, const std::optional<double>& max_deviation) {
+    constexpr double kLeastShare = 1e-9;
+    const BoundingBox box = bounding_box(source);
+    if (!max_deviation || box.empty()) return Done{};
+    const double least = kLeastShare * std::max({box.diagonal(), box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()});
+    if (*max_deviation >= least) return Done{};
+    return invalid("max_deviation", number_text(*max_deviation),
+                   "a length from " + number_text(least) + " on, which is what coordinates of this size resolve");
+}
+
 template <class Options>
 Status check_on(const TriangleMesh& source, const Options& options) {
+    if (Status s = check_resolved(source, options.max_deviation); !s) return s;
     if (Status s = check_features(source, options.marked_edges, options.regions); !s) return s;
     return options.sizing ? check_sizing_on(source, *options.sizing) : Status(Done{});
 }

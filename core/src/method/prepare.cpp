@@ -1,8 +1,10 @@
 #include "method/prepare.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "mesh/spatial_order.h"
+#include "quality/deviation_of_index.h"
 #include "vsplit/features/face_normals.h"
 #include "vsplit/mrr/progressive_mesh.h"
 
@@ -49,13 +51,45 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
     FaceNormals normals = inherit(source_normals, subdivided.parent);
     SimplifyInput input;
     input.centre = (box.min + box.max) / 2;
-    const std::vector<SharpEdge> creases = creases_on(subdivided, source, find_creases(source, source_normals, options.features));
-    input.quadrics = vertex_quadrics(subdivided.mesh, normals, creases, input.centre);
+    input.creases = creases_on(subdivided, source, find_creases(source, source_normals, options.features));
+    input.quadrics = vertex_quadrics(subdivided.mesh, normals, input.creases, input.centre);
     input.mesh = std::move(subdivided.mesh);
     input.normals = std::move(normals.normals);
     input.tolerance = options.tolerance;
     input.faces_min = options.faces_min;
+    input.faces = options.faces;
     return input;
+}
+
+void guard(SimplifyInput& input, const TriangleMesh& source, double max_deviation) {
+    constexpr double kShareAtSamples = 0.85;  // what is left is for what lies between the samples
+    input.source = std::make_shared<const SurfaceIndex>(surface_index(source));
+    input.max_deviation = kShareAtSamples * max_deviation;
+}
+
+namespace {
+
+void show(MethodResult& result, std::size_t level, const TriangleMesh& mesh, double deviation) {
+    result.faces = result.mrr.faces_at(level);
+    result.quality = measure_quality(mesh);
+    result.quality.deviation_max = deviation;
+}
+
+}  // namespace
+
+Status measure(MethodResult& result, const TriangleMesh& source, const SurfaceIndex* source_index, std::optional<double> limit,
+               const ExecutionContext& context) {
+    if (source_index == nullptr) return Done{};
+    std::size_t level = result.mrr.level_for(result.faces);
+    for (;;) {
+        const TriangleMesh mesh = mesh_at(result.mrr, level);
+        const SurfaceIndex index = surface_index(mesh);
+        const Expected<Deviation> deviation = measure_deviation({mesh, index}, {source, *source_index}, {}, context);
+        if (!deviation) return deviation.error();
+        show(result, level, mesh, deviation->max());
+        if (!limit || deviation->max() <= *limit || level == result.mrr.levels()) return Done{};
+        level = std::min(result.mrr.levels(), level + std::max<std::size_t>(1, result.mrr.levels() / 10));
+    }
 }
 
 MethodResult describe_resolution(MultiresMesh mrr, std::uint32_t faces) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -34,7 +36,7 @@ template <class Policy>
 class EdgeEvaluator {
 public:
     EdgeEvaluator(const HalfEdgeMesh& mesh, const LocalState& state, const Policy& policy, const SimplifyInput& input)
-        : mesh_(mesh), state_(state), policy_(policy), centre_(input.centre), error_limit_(input.tolerance * input.tolerance) {}
+        : mesh_(mesh), state_(state), policy_(policy), centre_(input.centre), tolerance_square_(input.tolerance * input.tolerance) {}
 
     /// What collapsing h's edge would give. O(valence). Afterwards fan() is the fan of the collapse, shaped for the position
     /// returned, when valid.
@@ -45,6 +47,14 @@ public:
         if (valence < 3 || valence > kValenceCeiling || !policy_.admits_valence(valence)) return {};
         if (!gather(h) || !policy_.eligible(before_)) return {};
         const Quadric quadric = state_.quadrics[i] + state_.quadrics[j];
+        error_limit_ = policy_.error_limit(quadric, tolerance_square_);
+        if constexpr (Policy::kExtended) {
+            if (!keeps_creases(h)) return {};
+            evenness_ = evenness(h, valence);
+            // The end of a crease, or where several meet, stays where it is.
+            if (is_corner(creases_[0])) return attempt(quadric, mesh_.position(i) - centre_) ? valid_ : Evaluation{};
+            if (is_corner(creases_[1])) return attempt(quadric, mesh_.position(j) - centre_) ? valid_ : Evaluation{};
+        }
         const Vec3 centroid = fan_.centroid() - centre_;
         if (attempt(quadric, centroid)) return valid_;
         if (attempt(quadric, project_to_minimum(quadric, centroid))) return valid_;
@@ -69,7 +79,7 @@ private:
         if (!is_valid_position(position)) return false;  // rounding may step over the limit of coordinates
         const Fan::Shape shape = fan_.shape_at(position);
         if (shape.folds || !policy_.admits(before_, shape)) return false;
-        valid_ = {Evaluation::Verdict::kValid, policy_.factor(before_) * shape_quality(shape, fan_.size()), position};
+        valid_ = {Evaluation::Verdict::kValid, evenness_ * policy_.factor(before_) * shape_quality(shape, fan_.size()), position};
         return true;
     }
 
@@ -81,8 +91,8 @@ private:
         Before before{0, 0, std::numeric_limits<double>::infinity(), 0};
         count(state_.faces[face_of(h)], before);
         count(state_.faces[face_of(g)], before);
-        const std::size_t at_i = gather_half(mesh_.turn(h), g, 0, before);
-        const std::size_t all = gather_half(mesh_.turn(g), h, at_i, before);
+        const std::size_t at_i = gather_half(mesh_.turn(h), g, 0, before, creases_[0]);
+        const std::size_t all = gather_half(mesh_.turn(g), h, at_i, before, creases_[1]);
         before_ = before;
         // Each half begins with a vertex across the edge, which both ends share; the others must differ.
         if (share_vertex(1, at_i, at_i + 1, all)) return false;
@@ -92,17 +102,43 @@ private:
 
     /// Puts the faces counter-clockwise from that of `first` to the one before the face of `edge` into the fan, from place t on.
     /// The next free place. Counts in locals: members would go through memory at every step.
-    std::size_t gather_half(HalfEdge first, HalfEdge edge, std::size_t t, Before& before) {
+    std::size_t gather_half(HalfEdge first, HalfEdge edge, std::size_t t, Before& before, int& creases) {
         const std::uint32_t last_face = face_of(edge);
         Before sums = before;
-        for (HalfEdge corner = first; face_of(corner) != last_face; corner = mesh_.turn(corner), ++t) {
+        int marks = 0;
+        HalfEdge corner = first;
+        for (; face_of(corner) != last_face; corner = mesh_.turn(corner), ++t) {
+            if constexpr (Policy::kExtended) marks += int{mesh_.is_crease(corner)};
             const std::uint32_t v = mesh_.target(corner);
             const FaceState& face = state_.faces[face_of(corner)];
             fan_.put(t, v, mesh_.position(v), face_of(corner), face.normal);
             count(face, sums);
         }
+        if constexpr (Policy::kExtended) creases = marks + int{mesh_.is_crease(corner)} + int{mesh_.is_crease(edge)};
         before = sums;
         return t;
+    }
+
+    [[nodiscard]] static bool is_corner(int creases) { return creases != 0 && creases != 2; }
+
+    /// Creases neither meet nor end where they did not: two vertices of creases join along a crease only, and two corners never,
+    /// unless they are within the tolerance of each other.
+    [[nodiscard]] bool keeps_creases(HalfEdge h) const {
+        if ((mesh_.position(mesh_.origin(h)) - mesh_.position(mesh_.target(h))).squaredNorm() <= tolerance_square_) return true;
+        if (mesh_.is_crease(h)) return !is_corner(creases_[0]) || !is_corner(creases_[1]);
+        return creases_[0] == 0 || creases_[1] == 0;
+    }
+
+    /// How a collapse changes the valences of the four vertices around the edge: above 1 where they come nearer to 6.
+    [[nodiscard]] double evenness(HalfEdge h, std::uint32_t valence_after) const {
+        constexpr double kStrength = 0.03;
+        const auto excess = [](double valence) { return (valence - 6) * (valence - 6); };
+        const auto valence_of = [this](HalfEdge corner) { return static_cast<double>(mesh_.valence(mesh_.origin(corner))); };
+        const HalfEdge g = mesh_.twin(h);
+        const double e = valence_of(prev(h)), b = valence_of(prev(g));
+        const double before = excess(valence_of(h)) + excess(valence_of(g)) + excess(e) + excess(b);
+        const double after = excess(valence_after) + excess(e - 1) + excess(b - 1);
+        return std::exp(kStrength * (before - after));
     }
 
     void count(const FaceState& face, Before& sums) const {
@@ -125,10 +161,13 @@ private:
     const LocalState& state_;
     const Policy& policy_;
     const Vec3 centre_;
-    const double error_limit_;
+    const double tolerance_square_;
     Fan fan_;
     Before before_;
     Evaluation valid_;
+    double error_limit_ = 0;  // of the edge at hand
+    double evenness_ = 1;
+    std::array<int, 2> creases_{};  // edges at either end that are creases; extended mode only
 };
 
 }  // namespace vsplit

@@ -31,6 +31,14 @@ EdgeQueue::EdgeQueue(std::size_t half_edges) {
     }
 }
 
+void EdgeQueue::clear() {
+    for (Level& level : levels_) {
+        std::fill(level.best.begin(), level.best.end(), kAbsent);
+        std::fill(level.is_open.begin(), level.is_open.end(), false);
+        level.open.clear();
+    }
+}
+
 void EdgeQueue::play_open_matches() {
     for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
         Level& at = levels_[level];

@@ -29,6 +29,9 @@ public:
         touch(0, edge / kPlayers);
     }
 
+    /// Drops all. O(edges).
+    void clear();
+
     /// The edge of largest priority, or kNone when there is none.
     [[nodiscard]] HalfEdge top();
 

@@ -116,6 +116,12 @@ void Fan::close(std::size_t faces) {
     ring_lengths(whole_vectors(size_), x_.data(), y_.data(), z_.data(), ring_length_.data());
 }
 
+double Fan::defect() const {
+    double sum = 0;
+    for (std::size_t t = 0; t < size_; ++t) sum += (1 - stretch_[t]) * (1 - stretch_[t]);
+    return sum / static_cast<double>(size_);
+}
+
 Vec3 Fan::centroid() const {
     Vec3 sum = Vec3::Zero();
     for (std::size_t t = 0; t < size_; ++t) sum += Vec3(x_[t], y_[t], z_[t]);

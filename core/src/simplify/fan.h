@@ -50,6 +50,11 @@ public:
     [[nodiscard]] double face_size(std::size_t t) const { return face_size_[t]; }
     /// \pre the face did not fold.
     [[nodiscard]] Eigen::Vector3f normal(std::size_t t) const;
+    /// Where ring vertex t stands; t = size() is the first again.
+    [[nodiscard]] Vec3 ring(std::size_t t) const { return {x_[t], y_[t], z_[t]}; }
+    [[nodiscard]] Vec3 old_normal(std::size_t t) const { return {old_nx_[t], old_ny_[t], old_nz_[t]}; }
+    /// Mean of (1 - stretch)^2, by the last shape_at: 0 where all faces are equilateral.
+    [[nodiscard]] double defect() const;
     /// Mean of the ring's vertices.
     [[nodiscard]] Vec3 centroid() const;
 

@@ -4,6 +4,7 @@ namespace vsplit {
 
 HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh)
     : half_edges_(mesh.faces.size() * 3),
+      creases_(mesh.faces.size() * 3, 0),
       outgoing_(mesh.positions.size(), kNone),
       valence_(mesh.positions.size(), 0),
       positions_(mesh.positions),
@@ -41,8 +42,8 @@ void HalfEdgeMesh::collapse(const EdgeStar& s, const Vec3& position) {
         half_edges_[corner].origin = i;
         if (prev(corner) == s.ej) break;
     }
-    pair(s.ej, s.ie);
-    pair(s.bi, s.jb);
+    join(s.ej, s.ie);
+    join(s.bi, s.jb);
     for (const HalfEdge gone : {s.ij, s.je, s.ei, s.ji, s.ib, s.bj}) half_edges_[gone].twin = kNone;
     outgoing_[i] = s.ie;
     outgoing_[e] = s.ej;
@@ -67,10 +68,14 @@ void HalfEdgeMesh::flip(HalfEdge h) {
     half_edges_[g].origin = c;
     half_edges_[ad].origin = d;
     half_edges_[db].origin = b;
-    pair(bc, ac);  // now c -> a
-    pair(ca, da);  // now a -> d
-    pair(ad, bd);  // now d -> b
-    pair(db, cb);  // now b -> c
+    const auto settle = [this](HalfEdge inside, HalfEdge outside) {
+        pair(inside, outside);
+        creases_[inside] = creases_[outside];
+    };
+    settle(bc, ac);  // now c -> a
+    settle(ca, da);  // now a -> d
+    settle(ad, bd);  // now d -> b
+    settle(db, cb);  // now b -> c
     outgoing_[a] = ca;
     outgoing_[b] = db;
     outgoing_[c] = g;

@@ -65,10 +65,20 @@ public:
 
     void move(std::uint32_t v, const Vec3& to) { positions_[v] = to; }
 
+    /// Whether the edge of h is a crease. Edges that a collapse joins are one when either was; a flipped edge keeps its mark.
+    [[nodiscard]] bool is_crease(HalfEdge h) const { return creases_[h] != 0; }
+    void mark_crease(HalfEdge h) { creases_[h] = creases_[twin(h)] = 1; }
+
 private:
     void pair(HalfEdge h, HalfEdge g) {
         half_edges_[h].twin = g;
         half_edges_[g].twin = h;
+    }
+
+    /// As pair, of two edges that become one.
+    void join(HalfEdge h, HalfEdge g) {
+        pair(h, g);
+        creases_[h] = creases_[g] = creases_[h] | creases_[g];
     }
 
     /// Side by side, since walks need both: a face's three lie in one or two cache lines.
@@ -77,6 +87,7 @@ private:
         HalfEdge twin = kNone;  // kNone in removed faces
     };
     std::vector<Link> half_edges_;
+    std::vector<std::uint8_t> creases_;  // 1 for both half-edges of a crease
     std::vector<HalfEdge> outgoing_;
     std::vector<std::uint32_t> valence_;
     std::vector<Vec3> positions_;

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "simplify/fan.h"
+#include "vsplit/quality/stretch.h"
+#include "vsplit/simplify/quadric.h"
 
 namespace vsplit {
 
@@ -24,8 +26,17 @@ struct Before {
 // A policy says which collapses are valid beyond topology, fold-over and tolerance, and in which order valid ones go. The
 // priorities of both methods are a factor known before the collapse times shape_quality after it.
 
+/// What the paper leaves as it is and the extended mode does not.
+struct StrictRules {
+    /// Creases are kept by their quadrics alone, shape by collapses alone.
+    static constexpr bool kExtended = false;
+
+    /// The largest error of a place; `square` is the tolerance squared.
+    [[nodiscard]] static double error_limit(const Quadric& /*quadric*/, double square) { return square; }
+};
+
 /// Mesh quality improvement ([Date05] 4.2): rho = s * q(after) / q(before), q = min St * mean St, s = faces / sum of sizes.
-struct ImprovePolicy {
+struct ImprovePolicy : StrictRules {
     /// A degenerate face is the most urgent case: above any finite ratio, ordered by size.
     static constexpr double kUrgent = 1e100;
     static constexpr double kDegenerate = 1e-30;
@@ -46,7 +57,7 @@ struct ImprovePolicy {
 
 /// Mesh property control ([Date05] 5.2, Eq. 9): bounds on stretch, size and valence;
 /// rho = 1 / (2 (n - 1)) * sum_before(tau_SZ / Sz) * min St * sum St over the n faces after.
-struct ControlPolicy {
+struct ControlPolicy : StrictRules {
     double min_stretch = 0;
     double max_size = std::numeric_limits<double>::infinity();
     std::uint32_t max_valence = std::numeric_limits<std::uint32_t>::max();
@@ -71,6 +82,29 @@ struct ControlPolicy {
 
 private:
     static constexpr double kPointWeight = 1e100;
+};
+
+/// A sum over many planes bounds their mean distance ever closer, until nothing on a curved surface may move. This bounds the mean
+/// of the squares instead, at a quarter of `square` (a quadric's trace is the sum of its weights), and never asks for less than
+/// the strict limit, `square`.
+[[nodiscard]] inline double mean_error_limit(const Quadric& quadric, double square) {
+    constexpr double kMeanShare = 0.25;
+    return square * std::max(1.0, kMeanShare * quadric.trace());
+}
+
+/// The extended mode of either method (docs/method.md): collapses keep creases apart and valences even, and the simplifier flips
+/// edges and moves vertices between them.
+template <class Method>
+struct Extended : Method {
+    static constexpr bool kExtended = true;
+    static constexpr double kFloor = 0.4;
+
+    [[nodiscard]] static double error_limit(const Quadric& quadric, double square) { return mean_error_limit(quadric, square); }
+
+    /// A collapse may not leave a face under the floor, where none was before.
+    [[nodiscard]] bool admits(const Before& before, const Fan::Shape& after) const {
+        return Method::admits(before, after) && after.stretch_min >= std::min(kFloor, before.stretch_min);
+    }
 };
 
 }  // namespace vsplit

@@ -10,13 +10,23 @@
 #include "simplify/collapse_log.h"
 #include "simplify/edge_evaluator.h"
 #include "simplify/edge_queue.h"
+#include "simplify/fan_replacement.h"
 #include "simplify/half_edge_mesh.h"
+#include "simplify/polish.h"
 
 namespace vsplit {
 namespace {
 
 constexpr std::uint32_t kLookEvery = 64;  // collapses, some 40 evaluations each, between two looks for a cancel
 constexpr std::uint32_t kReportEvery = 1024;
+
+// How the extended mode polishes: the dense mesh, checkpoints after each fifth of the faces, and the resolution asked for.
+constexpr double kCheckpointShare = 0.8;
+constexpr double kStuckShare = 0.98;  // of the faces at the last checkpoint: no use going on
+constexpr int kDenseRelaxations = 3;
+constexpr int kCheckpointRelaxations = 2;
+constexpr int kFinalRelaxations = 10;
+constexpr int kFinalLifts = 4;
 
 /// Asks for a quadric, which lies in two cache lines, some hundred nanoseconds before it is needed.
 void prefetch(const Quadric& quadric) {
@@ -37,29 +47,83 @@ public:
           out_of_reach_(mesh_.half_edge_count(), 0),
           visited_(mesh_.vertex_count(), 0),
           faces_start_(mesh_.live_faces()),
-          evaluator_(mesh_, state_, policy_, input_) {
+          evaluator_(mesh_, state_, policy_, input_),
+          guard_(make_guard()),
+          polisher_(mesh_, state_, log_, guard_.get(), limits_of(policy_, input_)) {
+        mark_creases();
         input_.mesh = {};
         input_.normals = {};
         input_.quadrics = {};
+        input_.creases = {};
     }
 
     [[nodiscard]] Expected<MultiresMesh> run() {
-        if (policy_.two_phases()) {
-            policy_.enter_phase(1);
-            if (Status done = collapse_all(); !done) return done.error();
-            policy_.enter_phase(2);
-        }
-        if (Status done = collapse_all(); !done) return done.error();
+        Status done = Policy::kExtended ? collapse_and_polish() : collapse_in_phases(input_.faces_min);
+        if (!done) return done.error();
         context_.report({"simplify", 1, mesh_.live_faces()});
         return log_.build(mesh_);
     }
 
 private:
-    /// Fills the queue, then collapses from its top until it is empty or the mesh is coarse enough.
-    [[nodiscard]] Status collapse_all() {
+    [[nodiscard]] static PolishLimits limits_of(const Policy& policy, const SimplifyInput& input) {
+        PolishLimits limits{.centre = input.centre, .tolerance = input.tolerance};
+        if constexpr (requires { policy.max_valence; }) {
+            limits.max_size = policy.max_size;
+            limits.max_valence = policy.max_valence;
+        }
+        return limits;
+    }
+
+    [[nodiscard]] std::unique_ptr<DeviationGuard> make_guard() const {
+        if (!input_.source) return nullptr;
+        return std::make_unique<DeviationGuard>(mesh_, *input_.source, input_.max_deviation);
+    }
+
+    void mark_creases() {
+        for (const SharpEdge& crease : input_.creases) {
+            mesh_.for_each_outgoing(crease.a, [&](HalfEdge h) {
+                if (mesh_.target(h) == crease.b) mesh_.mark_crease(h);
+            });
+        }
+    }
+
+    /// From checkpoint to checkpoint, so that no resolution is far from a polished one.
+    [[nodiscard]] Status collapse_and_polish() {
+        polisher_.polish(kDenseRelaxations, 0);
+        for (std::uint32_t faces = mesh_.live_faces(); faces >= input_.faces_min + 2;) {
+            const std::uint32_t goal = next_checkpoint(faces);
+            if (Status done = collapse_in_phases(goal); !done) return done;
+            // Polishing makes some more collapses valid, but ever fewer.
+            const bool stuck = mesh_.live_faces() >= goal + 2 && mesh_.live_faces() > kStuckShare * faces;
+            const bool final = goal == input_.faces || (stuck && mesh_.live_faces() > input_.faces);
+            polisher_.polish(final ? kFinalRelaxations : kCheckpointRelaxations, final ? kFinalLifts : 0);
+            if (stuck) break;
+            faces = mesh_.live_faces();
+        }
+        return Done{};
+    }
+
+    /// A fifth of the faces fewer, and the resolution asked for in any case.
+    [[nodiscard]] std::uint32_t next_checkpoint(std::uint32_t faces) const {
+        const auto goal = static_cast<std::uint32_t>(kCheckpointShare * faces);
+        const bool passes_asked = faces > input_.faces + 1 && goal < input_.faces + input_.faces / 10;
+        return std::max(passes_asked ? input_.faces : goal, input_.faces_min);
+    }
+
+    [[nodiscard]] Status collapse_in_phases(std::uint32_t faces) {
+        if (policy_.two_phases()) {
+            policy_.enter_phase(1);
+            if (Status done = collapse_all(faces); !done) return done;
+            policy_.enter_phase(2);
+        }
+        return collapse_all(faces);
+    }
+
+    /// Fills the queue, then collapses from its top until it is empty or the mesh has no more than `faces`.
+    [[nodiscard]] Status collapse_all(std::uint32_t faces) {
         if (Status queued = evaluate_all_edges(); !queued) return queued;
         std::uint32_t collapses = 0;
-        while (mesh_.live_faces() >= input_.faces_min + 2) {
+        while (mesh_.live_faces() >= faces + 2) {
             const HalfEdge edge = queue_.top();
             if (edge == kNone) break;
             collapse(edge);
@@ -99,6 +163,7 @@ private:
         if (context_.cancelled()) return ExecutionContext::cancelled_error();
         context_.report({"evaluate", 1, mesh_.live_faces()});
 
+        queue_.clear();
         for (std::size_t n = 0; n < edges.size(); ++n) {
             if (priorities[n] >= 0) queue_.set(edges[n], priorities[n]);
         }
@@ -109,17 +174,37 @@ private:
         const EdgeStar star = mesh_.star(edge);
         // The fan belongs to the edge evaluated last; this one's is made again, for its place and its faces.
         const Evaluation evaluation = evaluator_.evaluate(edge);
+        if (guard_ && !replacement_.try_on(*guard_, evaluator_.fan(), evaluation.position,
+                                           {face_of(star.ij), face_of(star.ji)})) {
+            return drop(edge);  // until its neighbourhood changes
+        }
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
         log_.record(mesh_, star);
         const std::uint32_t kept = mesh_.origin(star.ij);
         state_.quadrics[kept] += state_.quadrics[mesh_.origin(star.ji)];
         mesh_.collapse(star, evaluation.position);
         update_faces();
+        if constexpr (Policy::kExtended) flip_around(kept);
         requeue_around(kept);
     }
 
-    void drop(HalfEdge h) {
-        const HalfEdge edge = mesh_.edge_of(h);
+    /// Flips give edges other numbers: those of the faces that changed are taken out of the queue before they come in anew.
+    void flip_around(std::uint32_t kept) {
+        const std::vector<std::uint32_t>& changed = polisher_.flip_around(kept);
+        for (const std::uint32_t face : changed) {
+            for (const HalfEdge h : {3 * face, 3 * face + 1, 3 * face + 2}) {
+                drop_number(h);
+                drop_number(mesh_.twin(h));
+                ring_.push_back(mesh_.origin(h));
+            }
+        }
+        std::sort(ring_.begin(), ring_.end());
+        ring_.erase(std::unique(ring_.begin(), ring_.end()), ring_.end());
+    }
+
+    void drop(HalfEdge h) { drop_number(mesh_.edge_of(h)); }
+
+    void drop_number(HalfEdge edge) {
         queue_.erase(edge);
         out_of_reach_[edge] = 0;
     }
@@ -133,7 +218,8 @@ private:
         }
     }
 
-    /// Every edge with an end in the ring of k has new faces around it, or a neighbour that moved: its priority is open again.
+    /// Every edge with an end in the ring of k, or in that of a flip, has new faces around it, or a neighbour that moved: its
+    /// priority is open again.
     void requeue_around(std::uint32_t k) {
         ++visit_;
         open_.clear();
@@ -146,7 +232,7 @@ private:
                 if (visited_[other] == visit_ && other < v) return;  // both ends in the ring: once is enough
                 const HalfEdge edge = mesh_.edge_of(h);
                 // Neither quadric changed unless an end is k: no place came within reach.
-                if (out_of_reach_[edge] != 0 && other != k) return;
+                if (out_of_reach_[edge] != 0 && other != k && v != k) return;
                 prefetch(state_.quadrics[other]);
                 open_.push_back(edge);
             });
@@ -173,6 +259,9 @@ private:
     std::uint32_t visit_ = 0;
     std::uint32_t faces_start_ = 0;
     EdgeEvaluator<Policy> evaluator_;
+    FanReplacement replacement_;
+    std::unique_ptr<DeviationGuard> guard_;  // null where there is no bound
+    Polisher polisher_;
 };
 
 }  // namespace
@@ -183,6 +272,14 @@ Expected<MultiresMesh> simplify(SimplifyInput input, const ImprovePolicy& policy
 
 Expected<MultiresMesh> simplify(SimplifyInput input, const ControlPolicy& policy, const ExecutionContext& context) {
     return Simplifier<ControlPolicy>(std::move(input), policy, context).run();
+}
+
+Expected<MultiresMesh> simplify(SimplifyInput input, const Extended<ImprovePolicy>& policy, const ExecutionContext& context) {
+    return Simplifier<Extended<ImprovePolicy>>(std::move(input), policy, context).run();
+}
+
+Expected<MultiresMesh> simplify(SimplifyInput input, const Extended<ControlPolicy>& policy, const ExecutionContext& context) {
+    return Simplifier<Extended<ControlPolicy>>(std::move(input), policy, context).run();
 }
 
 }  // namespace vsplit

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "simplify/policies.h"
+#include "spatial/surface_index.h"
 #include "vsplit/base/execution_context.h"
 #include "vsplit/base/expected.h"
+#include "vsplit/features/sharp_edges.h"
 #include "vsplit/mrr/multires_mesh.h"
 #include "vsplit/simplify/quadric.h"
 
@@ -17,16 +20,27 @@ struct SimplifyInput {
     std::vector<Vec3> normals;      ///< one a face, unit (see FaceNormals)
     std::vector<Quadric> quadrics;  ///< one a vertex, of points relative to `centre`
     Vec3 centre = Vec3::Zero();
-    double tolerance = 0;         ///< length; tau_TL is its square
-    std::uint32_t faces_min = 4;  ///< stop here at the latest
+    std::vector<SharpEdge> creases;  ///< of `mesh`; the extended mode keeps them apart
+    std::shared_ptr<const SurfaceIndex> source;  ///< what max_deviation is measured from; null for no bound
+    double max_deviation = 0;                    ///< length; samples of both surfaces stay within it of the other
+    double tolerance = 0;            ///< length; tau_TL is its square
+    std::uint32_t faces_min = 4;     ///< stop here at the latest
+    std::uint32_t faces = 4;         ///< the resolution that is asked for: the extended mode polishes it longest
 };
 
 /// The simplifier of both methods ([Date05] 4.2, Fig. 7): collapses the valid edge of largest priority until none is left or
 /// faces_min is reached. Collapses are exactly in order of priority, ties by edge number, whatever the number of threads.
 ///
+/// An `Extended` policy adds flips after each collapse, and rounds of flips and moves of vertices to begin with, whenever a fifth
+/// of the faces is gone, and at `faces`; they are records of the MRR as collapses are.
+///
 /// Takes as many threads as the task arena it is called in. Stages "evaluate" and "simplify". CANCELLED. O(n log n) for bounded
 /// valence.
 [[nodiscard]] Expected<MultiresMesh> simplify(SimplifyInput input, const ImprovePolicy& policy, const ExecutionContext& context);
 [[nodiscard]] Expected<MultiresMesh> simplify(SimplifyInput input, const ControlPolicy& policy, const ExecutionContext& context);
+[[nodiscard]] Expected<MultiresMesh> simplify(SimplifyInput input, const Extended<ImprovePolicy>& policy,
+                                              const ExecutionContext& context);
+[[nodiscard]] Expected<MultiresMesh> simplify(SimplifyInput input, const Extended<ControlPolicy>& policy,
+                                              const ExecutionContext& context);
 
 }  // namespace vsplit

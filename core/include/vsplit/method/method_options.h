@@ -12,7 +12,8 @@
 
 namespace vsplit {
 
-/// STRICT is the paper's method; EXTENDED goes beyond it and comes with a later version (UNSUPPORTED now).
+/// STRICT is the paper's method; EXTENDED goes beyond it (docs/method.md): flips and moves beside collapses, creases kept apart, and
+/// a bound on the deviation.
 enum class Mode { kStrict, kExtended };
 
 /// Default of `tolerance`, as a share of the bounding box's diagonal.
@@ -26,19 +27,22 @@ inline constexpr std::uint32_t kLeastFaces = 4;  ///< a tetrahedron: no closed m
 struct ImproveOptions {
     std::optional<double> subdivision_size{};  ///< sigma_SZ: no edge longer after subdivision; > 0. Default: see docs/method.md
     std::optional<double>
-        tolerance{};  ///< > 0; sqrt of the paper's tau_TL (tau_TL = 2 is tolerance 1.414). Default 0.1 % of the diagonal
-    std::optional<double> max_deviation{};   ///< guaranteed two-sided distance; comes with the extended mode (UNSUPPORTED now)
+        tolerance{};  ///< > 0; sqrt of the paper's tau_TL (tau_TL = 2 is tolerance 1.414). Default 0.1 % of the diagonal, or half
+                      ///< of max_deviation
+    /// > 0: no point of the result is further from the source, nor of the source from the result; EXTENDED only. Where it is given
+    /// it is certain, at the price of more faces than asked for if need be. Default: twice the tolerance, kept at samples.
+    std::optional<double> max_deviation{};
     std::optional<double> feature_angle{};   ///< degrees, 0..180; default 40
     std::optional<double> feature_weight{};  ///< w_e at a right angle; >= 0; default 10
     std::optional<std::uint32_t>
         faces{};  ///< resolution of the result; default: mean edge 1.5 subdivision_size, but at least twice the coarsest
     std::optional<std::uint32_t> faces_min{};  ///< simplify down to this many faces, or until no edge is valid; default 4
-    std::optional<Mode> mode{};                ///< default STRICT
+    std::optional<Mode> mode{};                ///< default EXTENDED
     std::optional<FeatureDetection> feature_detection{};  ///< how creases are found; default DIHEDRAL
     std::vector<std::uint32_t> marked_edges{};  ///< edges to keep as creases, as pairs of vertices of the source; default none
     std::vector<std::uint32_t> regions{};       ///< an id a face of the source; borders between ids are creases. Default none
     std::optional<SizingOptions>
-        sizing{};  ///< edges as long as a place on the surface allows; comes with the extended mode (UNSUPPORTED now)
+        sizing{};  ///< edges as long as a place on the surface allows; comes with a later version (UNSUPPORTED now)
 };
 
 /// What `control` may be asked for. Lengths in model units.
@@ -53,7 +57,7 @@ struct ControlOptions {
     std::optional<double> feature_weight{};               ///< as in ImproveOptions
     std::optional<std::uint32_t> faces{};                 ///< resolution of the result; default: as many as the source has
     std::optional<std::uint32_t> faces_min{};             ///< as in ImproveOptions
-    std::optional<Mode> mode{};                           ///< default STRICT
+    std::optional<Mode> mode{};                           ///< default EXTENDED
     std::optional<FeatureDetection> feature_detection{};  ///< as in ImproveOptions
     std::vector<std::uint32_t> marked_edges{};            ///< as in ImproveOptions
     std::vector<std::uint32_t> regions{};                 ///< as in ImproveOptions

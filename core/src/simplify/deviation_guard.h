@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "simplify/half_edge_mesh.h"
+#include "spatial/surface_index.h"
+
+namespace vsplit {
+
+/// Keeps the mesh within a distance of the source and the source within it of the mesh, while faces are replaced by others.
+///
+/// Points of the source, the vertices of the dense mesh, are kept at the face that is nearest: where faces are replaced, theirs go
+/// over to the new ones, as in the error control of Klein, Liebich and Strasser (Mesh Reduction with Error Control, 1996). New
+/// faces are tried at their apex, their middle and the middle of one side. Both are samples: the limit is to be a little under
+/// what is promised, and the result is measured afterwards (`measure_deviation`).
+class DeviationGuard {
+public:
+    /// A face as it would be. Its side (b, c) was there before, in a face of normal `old_normal` (unit, or zero when not known):
+    /// where the apex lies in the plane of that face the surface stays, and nothing need be tried.
+    struct NewFace {
+        std::uint32_t face = 0;
+        Vec3 apex = Vec3::Zero();
+        Vec3 b = Vec3::Zero();
+        Vec3 c = Vec3::Zero();
+        Vec3 old_normal = Vec3::Zero();
+    };
+
+    /// \pre `mesh` is the dense mesh, whose surface is the source's; `source` outlives this.
+    DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit);
+
+    /// Whether `faces` may stand where those of `old_faces` are; if so their points go over to them. O(faces * points of them).
+    [[nodiscard]] bool replace(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces);
+
+private:
+    struct Place {
+        std::uint32_t point = 0;
+        std::uint32_t face = 0;
+    };
+
+    [[nodiscard]] bool stays_in_plane(const NewFace& f) const;
+    [[nodiscard]] bool near_source(const Vec3& p) const;
+    [[nodiscard]] bool reaches_source(std::span<const NewFace> faces) const;
+    [[nodiscard]] bool reached_by_source(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces);
+
+    const SurfaceIndex& source_;
+    const double limit_;
+    const double limit_square_;
+    std::vector<Vec3> points_;
+    std::vector<std::uint32_t> next_;   // of a point: the next one at its face, or kNone
+    std::vector<std::uint32_t> first_;  // of a face: its first point, or kNone
+    std::vector<Place> places_;         // where the points of old faces would go
+};
+
+}  // namespace vsplit

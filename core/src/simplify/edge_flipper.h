@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "simplify/collapse_log.h"
+#include "simplify/deviation_guard.h"
+#include "simplify/half_edge_mesh.h"
+#include "simplify/local_state.h"
+#include "simplify/polish_limits.h"
+
+namespace vsplit {
+
+/// Flips edges where the smaller stretch of the two faces grows and both normals stay; never a crease. Tells the log.
+class EdgeFlipper {
+public:
+    /// `guard` may be null.
+    EdgeFlipper(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, DeviationGuard* guard, const PolishLimits& limits)
+        : mesh_(mesh), state_(state), log_(log), guard_(guard), limits_(limits) {}
+
+    /// All over the mesh, and again around what was flipped. Ends, since each flip betters the worse of two faces. O(faces).
+    void flip_all();
+
+    /// Among the edges of v and of its ring, and again around what was flipped. The faces that changed are in `changed_faces()`.
+    void flip_around(std::uint32_t v);
+
+    /// Of the last flip_around; a face may be named more than once.
+    [[nodiscard]] const std::vector<std::uint32_t>& changed_faces() const { return changed_; }
+
+private:
+    struct Quad;
+
+    void flip_open_edges();
+    [[nodiscard]] bool flip_if_better(HalfEdge h);
+    [[nodiscard]] bool may_flip(const Quad& quad) const;
+    [[nodiscard]] bool guard_admits(const Quad& quad, HalfEdge h);
+    [[nodiscard]] bool has_edge(std::uint32_t from, std::uint32_t to) const;
+
+    HalfEdgeMesh& mesh_;
+    LocalState& state_;
+    CollapseLog& log_;
+    DeviationGuard* const guard_;
+    const PolishLimits limits_;
+    std::vector<HalfEdge> open_;  // edges to look at, last first
+    std::vector<std::uint32_t> changed_;
+};
+
+}  // namespace vsplit

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "simplify/edge_flipper.h"
+#include "simplify/vertex_mover.h"
+
+namespace vsplit {
+
+/// Betters the shape of a mesh's faces without changing their number: rounds of flips and moves. In a fixed order on one thread,
+/// so the same for any number of them.
+class Polisher {
+public:
+    /// `guard` may be null.
+    Polisher(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, DeviationGuard* guard, const PolishLimits& limits)
+        : mesh_(mesh), flipper_(mesh, state, log, guard, limits), mover_(mesh, state, log, guard, limits) {}
+
+    /// `relaxations` rounds for the mean shape, then `lifts` for the worst faces. O(faces * rounds).
+    void polish(int relaxations, int lifts);
+
+    /// Flips after a collapse to v; see EdgeFlipper.
+    [[nodiscard]] const std::vector<std::uint32_t>& flip_around(std::uint32_t v) {
+        flipper_.flip_around(v);
+        return flipper_.changed_faces();
+    }
+
+private:
+    template <class Move>
+    void move_all(Move move);
+
+    HalfEdgeMesh& mesh_;
+    EdgeFlipper flipper_;
+    VertexMover mover_;
+};
+
+}  // namespace vsplit

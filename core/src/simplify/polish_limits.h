@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "vsplit/mesh/triangle_mesh.h"
+
+namespace vsplit {
+
+/// What flips and moves must keep to.
+struct PolishLimits {
+    Vec3 centre = Vec3::Zero();  ///< quadrics are of points relative to it
+    double tolerance = 0;        ///< length: of a move's quadric error, and of the gap a flip may open or close
+    double max_size = std::numeric_limits<double>::infinity();  ///< longest edge
+    std::uint32_t max_valence = std::numeric_limits<std::uint32_t>::max();
+};
+
+/// Gains of stretch below this are not worth a record.
+inline constexpr double kLeastGain = 2e-4;
+
+}  // namespace vsplit

@@ -1,0 +1,116 @@
+#include "simplify/vertex_mover.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "mesh/coordinate.h"
+#include "simplify/placement.h"
+#include "simplify/policies.h"
+
+namespace vsplit {
+namespace {
+
+constexpr double kEquilateralHeight = 0.8660254037844386;  // of edge 1
+
+// The pattern of `lift`: eight directions, steps from this share of the longest edge down by halves.
+constexpr double kFirstStep = 0.2;
+constexpr int kHalvings = 5;
+constexpr double kDiagonal = 0.7071067811865476;
+constexpr std::array<std::pair<double, double>, 8> kPattern{{{1, 0},
+                                                             {-1, 0},
+                                                             {0, 1},
+                                                             {0, -1},
+                                                             {kDiagonal, kDiagonal},
+                                                             {-kDiagonal, kDiagonal},
+                                                             {kDiagonal, -kDiagonal},
+                                                             {-kDiagonal, -kDiagonal}}};
+
+}  // namespace
+
+bool VertexMover::gather_star(std::uint32_t v) {
+    if (mesh_.valence(v) > Fan::kCapacity) return false;
+    std::size_t t = 0;
+    mesh_.for_each_outgoing(v, [&](HalfEdge h) {
+        const std::uint32_t r = mesh_.target(h);
+        star_.put(t++, r, mesh_.position(r), face_of(h), state_.faces[face_of(h)].normal);
+    });
+    star_.close(t);
+    shape_ = star_.shape_at(mesh_.position(v));
+    quadric_ = state_.quadrics[v];
+    error_limit_ = mean_error_limit(quadric_, limits_.tolerance * limits_.tolerance);
+    size_limit_ = std::max(limits_.max_size, shape_.size_max);
+    return true;
+}
+
+/// Where each face would be equilateral over its ring edge, in the mean.
+Vec3 VertexMover::ideal() const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t t = 0; t < star_.size(); ++t) {
+        const Vec3 a = star_.ring(t);
+        const Vec3 b = star_.ring(t + 1);
+        sum += (a + b) / 2 + star_.old_normal(t).cross(b - a) * kEquilateralHeight;
+    }
+    return sum / static_cast<double>(star_.size());
+}
+
+/// Whether the vertex may stand at `place`, relative to the centre; the star is then shaped for it.
+bool VertexMover::admits(const Vec3& place) {
+    if (!(quadric_.error(place) <= error_limit_) || !is_valid_position(place + limits_.centre)) return false;
+    shape_ = star_.shape_at(place + limits_.centre);
+    return !shape_.folds && shape_.size_max <= size_limit_;
+}
+
+void VertexMover::put(std::uint32_t v, const Vec3& place) {
+    if (guard_ != nullptr && !replacement_.try_on(*guard_, star_, place + limits_.centre, {})) return;
+    log_.record_move(v, mesh_.position(v));
+    mesh_.move(v, place + limits_.centre);
+    static_cast<void>(star_.shape_at(mesh_.position(v)));
+    for (std::size_t t = 0; t < star_.size(); ++t) {
+        state_.faces[star_.face(t)] = {star_.normal(t), star_.stretch(t), star_.face_size(t)};
+    }
+}
+
+void VertexMover::relax(std::uint32_t v) {
+    if (!gather_star(v)) return;
+    const Vec3 here = mesh_.position(v) - limits_.centre;
+    const Vec3 target = ideal() - limits_.centre;
+    double least = star_.defect() - kLeastGain;
+    Vec3 best = here;
+    for (const Vec3& wanted : {target, Vec3(star_.centroid() - limits_.centre), Vec3((target + here) / 2)}) {
+        const Vec3 place = project_to_minimum(quadric_, wanted);
+        if (!admits(place) || !(star_.defect() < least)) continue;
+        least = star_.defect();
+        best = place;
+    }
+    if (best != here) put(v, best);
+}
+
+void VertexMover::lift(std::uint32_t v, double goal) {
+    if (!gather_star(v) || shape_.stretch_min >= goal) return;
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t t = 0; t < star_.size(); ++t) normal += star_.old_normal(t);
+    const Vec3 u = normal.unitOrthogonal();
+    const Vec3 w = normal.normalized().cross(u);
+    const Vec3 here = mesh_.position(v) - limits_.centre;
+    Vec3 best = here;
+    double most = shape_.stretch_min;
+    double step = kFirstStep * shape_.size_max;
+    for (int halving = 0; halving < kHalvings;) {
+        bool better = false;
+        for (const auto& [x, y] : kPattern) {
+            const Vec3 place = project_to_minimum(quadric_, best + step * (x * u + y * w));
+            if (!admits(place) || !(shape_.stretch_min > most + kLeastGain)) continue;
+            most = shape_.stretch_min;
+            best = place;
+            better = true;
+        }
+        if (better) continue;
+        step /= 2;
+        ++halving;
+    }
+    if (best != here) put(v, best);
+}
+
+}  // namespace vsplit

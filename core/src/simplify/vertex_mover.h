@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+
+#include "simplify/collapse_log.h"
+#include "simplify/fan_replacement.h"
+#include "simplify/fan.h"
+#include "simplify/half_edge_mesh.h"
+#include "simplify/local_state.h"
+#include "simplify/polish_limits.h"
+
+namespace vsplit {
+
+/// Moves vertices along the surface where the faces around them get a better shape. A vertex stays at the minimum of its quadric
+/// across the surface, so one on a crease moves along it and a corner not at all. Tells the log.
+class VertexMover {
+public:
+    /// `guard` may be null.
+    VertexMover(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, DeviationGuard* guard, const PolishLimits& limits)
+        : mesh_(mesh), state_(state), log_(log), guard_(guard), limits_(limits) {}
+
+    /// Towards where the faces around v are nearest to equilateral, in the mean of squares. O(valence).
+    void relax(std::uint32_t v);
+
+    /// Where a face around v has a stretch under `goal`, searches nearby for a place that raises the least one. O(valence).
+    void lift(std::uint32_t v, double goal);
+
+private:
+    [[nodiscard]] bool gather_star(std::uint32_t v);
+    [[nodiscard]] Vec3 ideal() const;
+    [[nodiscard]] bool admits(const Vec3& place);
+    void put(std::uint32_t v, const Vec3& place);
+
+    HalfEdgeMesh& mesh_;
+    LocalState& state_;
+    CollapseLog& log_;
+    DeviationGuard* const guard_;
+    const PolishLimits limits_;
+    FanReplacement replacement_;
+    // Of the vertex at hand:
+    Fan star_;
+    Fan::Shape shape_;   // by the last `admits`
+    Quadric quadric_;
+    double error_limit_ = 0;
+    double size_limit_ = 0;
+};
+
+}  // namespace vsplit
