@@ -28,13 +28,13 @@ auto described(Options options) {
 void set_options(const ImproveOptions& options, v1::Representation& proto) {
     proto.set_method(v1::IMPROVE);
     *proto.mutable_improve_options() = described(options);
-    proto.set_mode(to_proto(options.mode.value_or(Mode::kStrict)));
+    proto.set_mode(to_proto(options.mode.value_or(Mode::kExtended)));
 }
 
 void set_options(const ControlOptions& options, v1::Representation& proto) {
     proto.set_method(v1::CONTROL);
     *proto.mutable_control_options() = described(options);
-    proto.set_mode(to_proto(options.mode.value_or(Mode::kStrict)));
+    proto.set_mode(to_proto(options.mode.value_or(Mode::kExtended)));
 }
 
 void set_violations(const std::vector<Violation>& violations, v1::Representation& proto) {

@@ -179,11 +179,14 @@ void add_method(CLI::App& verb, Arguments& a, Options& o, const char* default_fa
         ->type_name("N");
     verb.add_option(
             "--tolerance", o.tolerance,
-            "Bound of a collapse's quadric error, as a length > 0: the square root of the paper's tau_TL. Default 0.1 % of "
-            "the bounding box's diagonal")
+            "Bound of a collapse's quadric error, as a length > 0: the square root of the paper's tau_TL. Default half of "
+            "--max-deviation, or 0.1 % of the bounding box's diagonal")
         ->check(real_number())
         ->type_name("T");
-    verb.add_option("--max-deviation", o.max_deviation, "Guaranteed distance to the source, length; not offered by this version")
+    verb.add_option("--max-deviation", o.max_deviation,
+                    "Length > 0: no point of the result is further from the source, nor of the source from the result; mode "
+                    "extended only. "
+                    "Certain where given, if need be with more faces. Default twice --tolerance, kept at samples")
         ->check(real_number())
         ->type_name("D");
     verb.add_option("--feature-angle", o.feature_angle,
@@ -202,7 +205,8 @@ void add_method(CLI::App& verb, Arguments& a, Options& o, const char* default_fa
         ->type_name("D");
     add_choice<Mode>(
         verb, "--mode", {{"strict", Mode::kStrict}, {"extended", Mode::kExtended}}, [&o](Mode mode) { o.mode = mode; },
-        "strict|extended: strict is the paper's method; extended is not offered by this version. Default strict")
+        "strict|extended: strict is the paper's method alone; extended adds flips and moves, keeps creases apart and bounds the "
+        "deviation. Default extended")
         ->type_name("M");
     verb.add_option(
             "--source-faces", a.source_faces,
@@ -235,14 +239,15 @@ void add_quality(CLI::App& app, Arguments& a) {
 void add_improve(CLI::App& app, Arguments& a) {
     CLI::App& verb = *app.add_subcommand("improve", "Improve the shape of the faces within a tolerance of the surface");
     add_input(verb, a, "Closed mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
-    verb.add_option(
-            "--subdivide", a.improve.subdivision_size,
-            "Split edges until none is longer (the paper's sigma_SZ); length > 0. Default 1 % of the bounding box's diagonal, or "
-            "more so that at most a million faces come out")
+    verb.add_option("--subdivide", a.improve.subdivision_size,
+                    "Split edges until none is longer (the paper's sigma_SZ); length > 0. Default the mean edge of --faces, or "
+                    "1.5 % of the "
+                    "bounding box's diagonal (strict: 1 %), or more so that at most a million faces come out")
         ->check(real_number())
         ->type_name("S");
-    add_method(verb, a, a.improve,
-               "a mean edge of 1.5 times --subdivide, but at least twice as many as the coarsest resolution has");
+    add_method(
+        verb, a, a.improve,
+        "a mean edge of --subdivide (strict: of 1.5 times as much, but at least twice as many as the coarsest resolution has)");
     verb.footer("Example:\n  vsplit improve crankshaft.stl --subdivide 8 --tolerance 1 --faces 30000 -o improved.vsplit");
 }
 

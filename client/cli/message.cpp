@@ -55,6 +55,7 @@ std::string error_message(const Error& error) {
 }
 
 std::string broken_by(const v1::Violation& violation) {
+    if (violation.bound() == "max_deviation") return "the surface";
     const bool vertices = violation.bound() == "max_valence";
     return vertices ? counted(violation.count(), "vertex", "vertices") : counted(violation.count(), "face", "faces");
 }

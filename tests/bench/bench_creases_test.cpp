@@ -1,7 +1,6 @@
-#include "quality/creases.h"
-
 #include <gtest/gtest.h>
 
+#include "quality/creases.h"
 #include "tests/core/meshes.h"
 
 namespace vsplit::bench {

@@ -168,7 +168,8 @@ TriangleMesh twice_cut() {
     mesh.positions.emplace_back(0.1, 0, 0);
     mesh.positions.emplace_back(0.2, 0, 0);
     mesh.faces[0] = {a, b, d};
-    for (const Triangle& face : {Triangle{b, a, c}, Triangle{b, c, e}, Triangle{c, d, e}, Triangle{d, b, e}}) mesh.faces.push_back(face);
+    for (const Triangle& face : {Triangle{b, a, c}, Triangle{b, c, e}, Triangle{c, d, e}, Triangle{d, b, e}})
+        mesh.faces.push_back(face);
     return mesh;
 }
 

@@ -139,7 +139,8 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
 
     Expected<SubdividedMesh> subdivided = subdivide(mesh, used, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    SimplifyInput input = prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min, *used.faces});
+    SimplifyInput input =
+        prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min, *used.faces});
     if (used.max_deviation) guard(input, mesh, *used.max_deviation);
     const std::shared_ptr<const SurfaceIndex> source = input.source;
     const ControlPolicy policy = policy_of(used, bounding_box(mesh).diagonal());
@@ -153,6 +154,7 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     result.violations = find_violations(mesh_at(result.mrr, result.mrr.level_for(result.faces)), used);
     for (Violation& violation : result.violations)
         violation.reason = reason_for(violation, result.faces == result.mrr.faces_min());
+    report_deviation(result, options.max_deviation);
     result.elapsed = std::chrono::steady_clock::now() - start;
     return result;
 }

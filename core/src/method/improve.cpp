@@ -12,8 +12,8 @@
 namespace vsplit {
 namespace {
 
-/// What is taken where nothing is given: the subdivision size as a share of the diagonal, and the mean edge of the result over it.
-/// The paper's method needs edges well under those of the result; with flips and moves the same size does.
+/// What is taken where nothing is given: the subdivision size as a share of the diagonal, and the mean edge of the result over
+/// it. The paper's method needs edges well under those of the result; with flips and moves the same size does.
 struct DefaultSizes {
     double size_share = 0.01;
     double mean_edge_over_size = 1.5;
@@ -64,8 +64,7 @@ ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& o
     used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
-    used.faces =
-        options.faces ? *options.faces : std::max(default_faces(mesh, used), options.faces_min.value_or(4));
+    used.faces = options.faces ? *options.faces : std::max(default_faces(mesh, used), options.faces_min.value_or(4));
     used.faces_min = options.faces_min.value_or(kLeastFaces);
     return used;
 }
@@ -83,7 +82,8 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
 
     Expected<SubdividedMesh> subdivided = subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    SimplifyInput input = prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min, *used.faces});
+    SimplifyInput input =
+        prepare(mesh, std::move(*subdivided), {feature_options(used), *used.tolerance, *used.faces_min, *used.faces});
     if (used.max_deviation) guard(input, mesh, *used.max_deviation);
     const std::shared_ptr<const SurfaceIndex> source = input.source;
     Expected<MultiresMesh> mrr = *used.mode == Mode::kExtended ? simplify(std::move(input), Extended<ImprovePolicy>{}, context)
@@ -92,6 +92,7 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     if (!options.faces && used.mode == Mode::kStrict) used.faces = std::max(*used.faces, kFacesOverCoarsest * mrr->faces_min());
     MethodResult result = describe_resolution(std::move(*mrr), *used.faces);
     if (Status measured = measure(result, mesh, source.get(), options.max_deviation, context); !measured) return measured.error();
+    report_deviation(result, options.max_deviation);
     if (!options.faces) used.faces = result.faces;
     result.options = used;
     result.elapsed = std::chrono::steady_clock::now() - start;

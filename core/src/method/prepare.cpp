@@ -7,6 +7,7 @@
 #include "quality/deviation_of_index.h"
 #include "vsplit/features/face_normals.h"
 #include "vsplit/mrr/progressive_mesh.h"
+#include "vsplit/quality/stretch.h"
 
 namespace vsplit {
 namespace {
@@ -61,9 +62,24 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
     return input;
 }
 
+namespace {
+
+/// Long slivers lie in the boxes of all their neighbours, and an index over them is slow; that over their pieces is not.
+bool has_needles(const TriangleMesh& mesh) {
+    constexpr double kMuch = 100;  // 2.3 where all are equilateral
+    double squares = 0;
+    for (const Triangle& t : mesh.faces) {
+        const double size = face_size(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+        squares += size * size;
+    }
+    return squares > kMuch * surface_area(mesh);
+}
+
+}  // namespace
+
 void guard(SimplifyInput& input, const TriangleMesh& source, double max_deviation) {
     constexpr double kShareAtSamples = 0.85;  // what is left is for what lies between the samples
-    input.source = std::make_shared<const SurfaceIndex>(surface_index(source));
+    input.source = std::make_shared<const SurfaceIndex>(surface_index(has_needles(source) ? input.mesh : source));
     input.max_deviation = kShareAtSamples * max_deviation;
 }
 
@@ -90,6 +106,18 @@ Status measure(MethodResult& result, const TriangleMesh& source, const SurfaceIn
         if (!limit || deviation->max() <= *limit || level == result.mrr.levels()) return Done{};
         level = std::min(result.mrr.levels(), level + std::max<std::size_t>(1, result.mrr.levels() / 10));
     }
+}
+
+void report_deviation(MethodResult& result, std::optional<double> limit) {
+    const std::optional<double> measured = result.quality.deviation_max;
+    if (!limit || !measured || *measured <= *limit) return;
+    Violation violation;
+    violation.bound = "max_deviation";
+    violation.limit = *limit;
+    violation.worst = *measured;
+    violation.count = 1;
+    violation.reason = "no resolution keeps to it; a larger length is met, or a smaller subdivision size meets this one";
+    result.violations.push_back(std::move(violation));
 }
 
 MethodResult describe_resolution(MultiresMesh mrr, std::uint32_t faces) {

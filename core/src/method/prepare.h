@@ -36,10 +36,14 @@ void fill_tolerances(double diagonal, Options& options) {
 /// Has the simplifier keep within `max_deviation` of `source`, both ways. O(faces log faces).
 void guard(SimplifyInput& input, const TriangleMesh& source, double max_deviation);
 
-/// Measures how far the result's shown resolution and its source are apart, and where that is more than `limit` shows the coarsest
-/// finer resolution that keeps to it. Does nothing without an index of the source. Stage "measure". \return CANCELLED.
+/// Measures how far the result's shown resolution and its source are apart, and where that is more than `limit` shows the
+/// coarsest finer resolution that keeps to it, or else the finest. Does nothing without an index of the source. Stage "measure".
+/// \return CANCELLED.
 [[nodiscard]] Status measure(MethodResult& result, const TriangleMesh& source, const SurfaceIndex* source_index,
                              std::optional<double> limit, const ExecutionContext& context);
+
+/// A violation where the shown resolution was measured to be further than `limit` from the source.
+void report_deviation(MethodResult& result, std::optional<double> limit);
 
 /// The resolution of `mrr` nearest to `faces`, and its figures.
 [[nodiscard]] MethodResult describe_resolution(MultiresMesh mrr, std::uint32_t faces);

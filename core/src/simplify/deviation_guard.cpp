@@ -1,19 +1,21 @@
 #include "simplify/deviation_guard.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace vsplit {
 
-DeviationGuard::DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit)
+DeviationGuard::DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit, std::uint32_t most_points)
     : source_(source),
       limit_(limit),
       limit_square_(limit * limit),
       points_(mesh.vertex_count()),
       next_(mesh.vertex_count(), kNone),
       first_(mesh.half_edge_count() / 3, kNone) {
-    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    // Vertices are numbered along a curve through space, so every n-th of them are spread evenly.
+    const std::uint32_t stride = 1 + mesh.vertex_count() / std::max(most_points, 1U);
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); v += stride) {
         if (mesh.outgoing(v) == kNone) continue;
         points_[v] = mesh.position(v);
         std::uint32_t& first = first_[face_of(mesh.outgoing(v))];
@@ -42,22 +44,27 @@ bool DeviationGuard::reaches_source(std::span<const NewFace> faces) const {
     return true;
 }
 
+/// The nearest of the faces to a point, or the first one found that is near enough, beginning with number `guess`.
+DeviationGuard::Nearest DeviationGuard::nearest_face(const Vec3& point, std::span<const NewFace> faces, std::size_t guess) const {
+    constexpr double kNearEnough = 0.01;  // of the limit squared
+    Nearest nearest;
+    for (std::size_t tried = 0, n = guess; tried < faces.size(); ++tried, n = n + 1 == faces.size() ? 0 : n + 1) {
+        const double square = TriangleShape{{faces[n].apex, faces[n].b, faces[n].c}}.closest(point).squared_distance;
+        if (square < nearest.square) nearest = {n, square};
+        if (square <= kNearEnough * limit_square_) break;
+    }
+    return nearest;
+}
+
 bool DeviationGuard::reached_by_source(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces) {
-    const double on_the_face = 1e-6 * limit_square_;
     places_.clear();
+    std::size_t guess = 0;  // points of a face are near each other
     for (const std::uint32_t old : old_faces) {
         for (std::uint32_t point = first_[old]; point != kNone; point = next_[point]) {
-            double nearest = std::numeric_limits<double>::infinity();
-            std::uint32_t place = kNone;
-            for (const NewFace& f : faces) {
-                const double square = TriangleShape{{f.apex, f.b, f.c}}.closest(points_[point]).squared_distance;
-                if (!(square < nearest)) continue;
-                nearest = square;
-                place = f.face;
-                if (square <= on_the_face) break;
-            }
-            if (!(nearest <= limit_square_)) return false;
-            places_.push_back({point, place});
+            const Nearest nearest = nearest_face(points_[point], faces, guess);
+            if (!(nearest.square <= limit_square_)) return false;
+            guess = nearest.number;
+            places_.push_back({point, faces[guess].face});
         }
     }
     return true;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,7 +13,7 @@ namespace vsplit {
 
 /// Keeps the mesh within a distance of the source and the source within it of the mesh, while faces are replaced by others.
 ///
-/// Points of the source, the vertices of the dense mesh, are kept at the face that is nearest: where faces are replaced, theirs go
+/// Points of the source, the vertices of the dense mesh, are kept at a face that is near: where faces are replaced, theirs go
 /// over to the new ones, as in the error control of Klein, Liebich and Strasser (Mesh Reduction with Error Control, 1996). New
 /// faces are tried at their apex, their middle and the middle of one side. Both are samples: the limit is to be a little under
 /// what is promised, and the result is measured afterwards (`measure_deviation`).
@@ -27,8 +29,9 @@ public:
         Vec3 old_normal = Vec3::Zero();
     };
 
+    /// Of the vertices about `most_points` are kept, evenly spread.
     /// \pre `mesh` is the dense mesh, whose surface is the source's; `source` outlives this.
-    DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit);
+    DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit, std::uint32_t most_points);
 
     /// Whether `faces` may stand where those of `old_faces` are; if so their points go over to them. O(faces * points of them).
     [[nodiscard]] bool replace(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces);
@@ -39,6 +42,12 @@ private:
         std::uint32_t face = 0;
     };
 
+    struct Nearest {
+        std::size_t number = 0;
+        double square = std::numeric_limits<double>::infinity();
+    };
+
+    [[nodiscard]] Nearest nearest_face(const Vec3& point, std::span<const NewFace> faces, std::size_t guess) const;
     [[nodiscard]] bool stays_in_plane(const NewFace& f) const;
     [[nodiscard]] bool near_source(const Vec3& p) const;
     [[nodiscard]] bool reaches_source(std::span<const NewFace> faces) const;

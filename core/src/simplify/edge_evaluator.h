@@ -36,7 +36,11 @@ template <class Policy>
 class EdgeEvaluator {
 public:
     EdgeEvaluator(const HalfEdgeMesh& mesh, const LocalState& state, const Policy& policy, const SimplifyInput& input)
-        : mesh_(mesh), state_(state), policy_(policy), centre_(input.centre), tolerance_square_(input.tolerance * input.tolerance) {}
+        : mesh_(mesh),
+          state_(state),
+          policy_(policy),
+          centre_(input.centre),
+          tolerance_square_(input.tolerance * input.tolerance) {}
 
     /// What collapsing h's edge would give. O(valence). Afterwards fan() is the fan of the collapse, shaped for the position
     /// returned, when valid.

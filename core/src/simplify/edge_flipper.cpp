@@ -56,9 +56,7 @@ struct EdgeFlipper::Quad {
           left(pd, pc, pa),
           right(pc, pd, pb) {}
 
-    [[nodiscard]] double gain() const {
-        return std::min(left.stretch, right.stretch) - std::min(of_h.stretch, of_twin.stretch);
-    }
+    [[nodiscard]] double gain() const { return std::min(left.stretch, right.stretch) - std::min(of_h.stretch, of_twin.stretch); }
 
     /// Neither new face turns away from either old one.
     [[nodiscard]] bool normals_stay() const {
@@ -92,9 +90,8 @@ bool EdgeFlipper::guard_admits(const Quad& quad, HalfEdge h) {
     if (guard_ == nullptr) return true;
     const std::uint32_t left = face_of(h), right = face_of(mesh_.twin(h));
     // The side (c, a) of the new left face was of the face of h, the side (d, b) of the right one of its twin's.
-    const std::array<DeviationGuard::NewFace, 2> faces{
-        {{left, quad.pd, quad.pc, quad.pa, quad.of_h.normal.cast<double>()},
-         {right, quad.pc, quad.pd, quad.pb, quad.of_twin.normal.cast<double>()}}};
+    const std::array<DeviationGuard::NewFace, 2> faces{{{left, quad.pd, quad.pc, quad.pa, quad.of_h.normal.cast<double>()},
+                                                        {right, quad.pc, quad.pd, quad.pb, quad.of_twin.normal.cast<double>()}}};
     return guard_->replace(std::array{left, right}, faces);
 }
 

@@ -84,9 +84,9 @@ private:
     static constexpr double kPointWeight = 1e100;
 };
 
-/// A sum over many planes bounds their mean distance ever closer, until nothing on a curved surface may move. This bounds the mean
-/// of the squares instead, at a quarter of `square` (a quadric's trace is the sum of its weights), and never asks for less than
-/// the strict limit, `square`.
+/// A sum over many planes bounds their mean distance ever closer, until nothing on a curved surface may move. This bounds the
+/// mean of the squares instead, at a quarter of `square` (a quadric's trace is the sum of its weights), and never asks for less
+/// than the strict limit, `square`.
 [[nodiscard]] inline double mean_error_limit(const Quadric& quadric, double square) {
     constexpr double kMeanShare = 0.25;
     return square * std::max(1.0, kMeanShare * quadric.trace());

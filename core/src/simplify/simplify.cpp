@@ -28,6 +28,12 @@ constexpr int kCheckpointRelaxations = 2;
 constexpr int kFinalRelaxations = 10;
 constexpr int kFinalLifts = 4;
 
+/// A collapse that the guard refused so often is not tried again before the next checkpoint: trying is dear.
+constexpr std::uint8_t kMostRefusals = 3;
+
+/// Points of the source for each face asked for, to measure the deviation by.
+constexpr std::uint32_t kPointsAFace = 8;
+
 /// Asks for a quadric, which lies in two cache lines, some hundred nanoseconds before it is needed.
 void prefetch(const Quadric& quadric) {
     __builtin_prefetch(&quadric);
@@ -45,6 +51,7 @@ public:
           state_(initial_state(input_)),
           queue_(mesh_.half_edge_count()),
           out_of_reach_(mesh_.half_edge_count(), 0),
+          refusals_(mesh_.half_edge_count(), 0),
           visited_(mesh_.vertex_count(), 0),
           faces_start_(mesh_.live_faces()),
           evaluator_(mesh_, state_, policy_, input_),
@@ -76,7 +83,8 @@ private:
 
     [[nodiscard]] std::unique_ptr<DeviationGuard> make_guard() const {
         if (!input_.source) return nullptr;
-        return std::make_unique<DeviationGuard>(mesh_, *input_.source, input_.max_deviation);
+        return std::make_unique<DeviationGuard>(mesh_, *input_.source, input_.max_deviation,
+                                                kPointsAFace * std::min(input_.faces, mesh_.live_faces()));
     }
 
     void mark_creases() {
@@ -135,6 +143,7 @@ private:
 
     /// Queues an edge by its priority, or not at all.
     void settle(HalfEdge edge) {
+        if (refusals_[edge] >= kMostRefusals) return;
         const Evaluation evaluation = evaluator_.evaluate(edge);
         out_of_reach_[edge] = evaluation.verdict == Evaluation::Verdict::kOutOfReach ? 1 : 0;
         evaluation.verdict == Evaluation::Verdict::kValid ? queue_.set(edge, evaluation.priority) : queue_.erase(edge);
@@ -164,6 +173,7 @@ private:
         context_.report({"evaluate", 1, mesh_.live_faces()});
 
         queue_.clear();
+        std::fill(refusals_.begin(), refusals_.end(), 0);
         for (std::size_t n = 0; n < edges.size(); ++n) {
             if (priorities[n] >= 0) queue_.set(edges[n], priorities[n]);
         }
@@ -174,8 +184,9 @@ private:
         const EdgeStar star = mesh_.star(edge);
         // The fan belongs to the edge evaluated last; this one's is made again, for its place and its faces.
         const Evaluation evaluation = evaluator_.evaluate(edge);
-        if (guard_ && !replacement_.try_on(*guard_, evaluator_.fan(), evaluation.position,
-                                           {face_of(star.ij), face_of(star.ji)})) {
+        if (guard_ &&
+            !replacement_.try_on(*guard_, evaluator_.fan(), evaluation.position, {face_of(star.ij), face_of(star.ji)})) {
+            ++refusals_[edge];
             return drop(edge);  // until its neighbourhood changes
         }
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
@@ -252,6 +263,7 @@ private:
     LocalState state_;
     EdgeQueue queue_;
     std::vector<std::uint8_t> out_of_reach_;  // of an edge: not queued, nor will it be until one of its ends moves
+    std::vector<std::uint8_t> refusals_;      // of an edge: how often the guard refused it since all edges were evaluated
     CollapseLog log_;
     std::vector<std::uint32_t> visited_;  // visit_ of the last collapse that had the vertex in its ring
     std::vector<std::uint32_t> ring_;

@@ -20,12 +20,12 @@ struct SimplifyInput {
     std::vector<Vec3> normals;      ///< one a face, unit (see FaceNormals)
     std::vector<Quadric> quadrics;  ///< one a vertex, of points relative to `centre`
     Vec3 centre = Vec3::Zero();
-    std::vector<SharpEdge> creases;  ///< of `mesh`; the extended mode keeps them apart
+    std::vector<SharpEdge> creases;              ///< of `mesh`; the extended mode keeps them apart
     std::shared_ptr<const SurfaceIndex> source;  ///< what max_deviation is measured from; null for no bound
     double max_deviation = 0;                    ///< length; samples of both surfaces stay within it of the other
-    double tolerance = 0;            ///< length; tau_TL is its square
-    std::uint32_t faces_min = 4;     ///< stop here at the latest
-    std::uint32_t faces = 4;         ///< the resolution that is asked for: the extended mode polishes it longest
+    double tolerance = 0;                        ///< length; tau_TL is its square
+    std::uint32_t faces_min = 4;                 ///< stop here at the latest
+    std::uint32_t faces = 4;                     ///< the resolution that is asked for: the extended mode polishes it longest
 };
 
 /// The simplifier of both methods ([Date05] 4.2, Fig. 7): collapses the valid edge of largest priority until none is left or

@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "simplify/collapse_log.h"
-#include "simplify/fan_replacement.h"
 #include "simplify/fan.h"
+#include "simplify/fan_replacement.h"
 #include "simplify/half_edge_mesh.h"
 #include "simplify/local_state.h"
 #include "simplify/polish_limits.h"
@@ -39,7 +39,7 @@ private:
     FanReplacement replacement_;
     // Of the vertex at hand:
     Fan star_;
-    Fan::Shape shape_;   // by the last `admits`
+    Fan::Shape shape_;  // by the last `admits`
     Quadric quadric_;
     double error_limit_ = 0;
     double size_limit_ = 0;

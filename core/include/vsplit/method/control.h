@@ -8,7 +8,8 @@
 
 namespace vsplit {
 
-/// `options` with every field filled in for this mesh (max_size, max_valence and max_deviation stay empty: no bound). O(faces).
+/// `options` with every field filled in for this mesh (max_size, max_valence and in STRICT mode max_deviation stay
+/// empty: no bound). O(faces).
 [[nodiscard]] ControlOptions default_options(const TriangleMesh& mesh, const ControlOptions& options);
 
 /// Mesh property control, [Date05] 5: one-to-four subdivision, then collapses under bounds on stretch, size and valence, those

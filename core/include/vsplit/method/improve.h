@@ -8,14 +8,17 @@
 
 namespace vsplit {
 
-/// `options` with every field filled in for this mesh, as far as can be told before the work: max_deviation stays empty (no
-/// bound), and `faces` is an estimate that improve() raises to twice the coarsest resolution where that is more. O(faces).
+/// `options` with every field filled in for this mesh, as far as can be told before the work: in STRICT mode
+/// max_deviation stays empty (no bound), and `faces` is an estimate that improve() raises to twice the coarsest resolution where
+/// that is more. O(faces).
 [[nodiscard]] ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits);
 
 /// Mesh quality improvement, [Date05] 4: subdivides until no edge is longer than sigma_SZ, then collapses edges in the order
-/// of quality gained, within the tolerance, and keeps every collapse as a vertex split.
+/// of quality gained, within the tolerance, and keeps every collapse as a vertex split. EXTENDED adds edge flips and vertex moves
+/// and bounds the deviation, see docs/method.md; max_deviation that cannot be met is reported in `violations`.
 ///
-/// Stages: "inspect", "subdivide", "evaluate", "simplify". The same input and options give the same bits for any thread count.
+/// Stages: "inspect", "subdivide", "evaluate", "simplify", and "measure" in EXTENDED, which evaluates and simplifies from
+/// checkpoint to checkpoint. The same input and options give the same bits for any thread count.
 /// \return EMPTY_INPUT, NON_MANIFOLD or OPEN_MESH for a mesh that is not a closed 2-manifold; INVALID_OPTION, UNSUPPORTED,
 ///         LIMIT_EXCEEDED, CANCELLED.
 /// Complexity: O(n log n) in the faces after subdivision, for bounded valence. Memory: about 250 bytes a face.

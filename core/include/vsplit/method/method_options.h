@@ -12,8 +12,8 @@
 
 namespace vsplit {
 
-/// STRICT is the paper's method; EXTENDED goes beyond it (docs/method.md): flips and moves beside collapses, creases kept apart, and
-/// a bound on the deviation.
+/// STRICT is the paper's method; EXTENDED goes beyond it (docs/method.md): flips and moves beside collapses, creases kept apart,
+/// and a bound on the deviation.
 enum class Mode { kStrict, kExtended };
 
 /// Default of `tolerance`, as a share of the bounding box's diagonal.
@@ -26,11 +26,10 @@ inline constexpr std::uint32_t kLeastFaces = 4;  ///< a tetrahedron: no closed m
 /// All lengths are in model units.
 struct ImproveOptions {
     std::optional<double> subdivision_size{};  ///< sigma_SZ: no edge longer after subdivision; > 0. Default: see docs/method.md
-    std::optional<double>
-        tolerance{};  ///< > 0; sqrt of the paper's tau_TL (tau_TL = 2 is tolerance 1.414). Default 0.1 % of the diagonal, or half
-                      ///< of max_deviation
-    /// > 0: no point of the result is further from the source, nor of the source from the result; EXTENDED only. Where it is given
-    /// it is certain, at the price of more faces than asked for if need be. Default: twice the tolerance, kept at samples.
+    std::optional<double> tolerance{};  ///< > 0; sqrt of the paper's tau_TL (tau_TL = 2 is tolerance 1.414). Default 0.1 % of the
+                                        ///< diagonal, or half of max_deviation
+    /// > 0: no point of the result is further from the source, nor of the source from the result; EXTENDED only. Where it is
+    /// given it is certain, at the price of more faces than asked for if need be. Default: twice the tolerance, kept at samples.
     std::optional<double> max_deviation{};
     std::optional<double> feature_angle{};   ///< degrees, 0..180; default 40
     std::optional<double> feature_weight{};  ///< w_e at a right angle; >= 0; default 10

@@ -15,10 +15,10 @@ namespace vsplit {
 struct Violation {
     static constexpr std::size_t kExamples = 16;
 
-    std::string bound;                    ///< the option: "min_stretch", "max_size", "max_valence"
+    std::string bound;                    ///< the option: "min_stretch", "max_size", "max_valence", "max_deviation"
     double limit = 0;                     ///< what was asked
     double worst = 0;                     ///< what the worst face or vertex has
-    std::uint32_t count = 0;              ///< faces (vertices for max_valence) that break it
+    std::uint32_t count = 0;              ///< faces (vertices for max_valence; 1 for max_deviation) that break it
     std::vector<std::uint32_t> elements;  ///< the first kExamples of them
     std::string reason;                   ///< one sentence: why it could not be mended
 };
