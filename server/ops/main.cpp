@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
@@ -27,6 +28,14 @@ sigset_t stop_signals() {
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGINT);
     return signals;
+}
+
+// Whole meshes and files come and go: their memory goes back to the system when it is freed, not into the heaps of threads.
+void return_large_memory() {
+#if defined(__GLIBC__)
+    constexpr int kLarge = 1 << 20;
+    static_cast<void>(mallopt(M_MMAP_THRESHOLD, kLarge));
+#endif
 }
 
 // Threads inherit what is blocked, so this comes before the first of them.
@@ -69,6 +78,7 @@ int run(int argc, const char* const* argv) {
     const Expected<ListenAddress> address = parse_listen_address(options.listen);
     if (!address) return fail(address.error().message);
     block_stop_signals();
+    return_large_memory();
     start_logging(options.log_level);
     return serve(options, *address);
 }

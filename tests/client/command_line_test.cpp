@@ -265,8 +265,10 @@ TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
         {{"improve", cube, "--faces", "3"}, "(--faces)"},
         {{"improve", cube, "--faces", "100", "--faces-min", "200"}, "(--faces-min)"},
         {{"improve", cube, "--feature-angle", "181"}, "(--feature-angle)"},
-        {{"improve", cube, "--mode", "extended"}, "UNSUPPORTED"},
-        {{"improve", cube, "--max-deviation", "1"}, "UNSUPPORTED"},
+        {{"improve", cube, "--mode", "strict", "--max-deviation", "1"}, "UNSUPPORTED"},
+        {{"improve", cube, "--max-deviation", "1e-12"}, "(--max-deviation)"},
+        {{"improve", cube, "--server", ""}, "accepted is HOST:PORT"},
+        {{"improv", cube}, "there is no verb 'improv'"},
         {{"improve", cube, "--repair", "safe"}, "UNSUPPORTED"},
         {{"info", cube, "--repair", "full"}, "UNSUPPORTED"},
         {{"control", cube, "--min-stretch", "1.5"}, "(--min-stretch)"},
@@ -326,7 +328,7 @@ TEST_F(CommandLineTest, SizesAreReadAndRefusedByName) {
     refused({"--size-sphere", "0,0,0,1,-2"},
             "sizing.spheres[0].size is -2; accepted is a positive finite length (--size-sphere)");
     refused({"--gradation", "0"}, "(--gradation)");
-    refused({"--chord-error", "0.1"}, "UNSUPPORTED: sizing comes with the extended mode");
+    refused({"--chord-error", "0.1"}, "UNSUPPORTED: sizing comes with a later version");
 }
 
 TEST_F(CommandLineTest, FeatureDetectionIsUsedAndReported) {

@@ -18,6 +18,7 @@ namespace {
 
 MultiresMesh make_mrr(const TriangleMesh& mesh, double size_share = 0.05) {
     ImproveOptions options;
+    options.mode = Mode::kStrict;  // splits alone: a level a record, and the finest is the source
     options.subdivision_size = size_share * bounding_box(mesh).diagonal();
     options.tolerance = 0.05 * bounding_box(mesh).diagonal();
     const ExecutionContext context;

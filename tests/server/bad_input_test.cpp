@@ -211,10 +211,11 @@ TEST_F(BadRequestTest, ControlNamesTheOptionAtFault) {
 }
 
 TEST_F(BadRequestTest, WhatALaterVersionOffersIsUnsupported) {
-    v1::ImproveRequest extended = small_improve(session_);
-    extended.mutable_options()->set_mode(v1::EXTENDED);
-    EXPECT_TRUE(failed_with(improve(server_.stub(), extended).status, Cause::kUnsupported, "mode"));
+    v1::ImproveRequest sized = small_improve(session_);
+    sized.mutable_options()->mutable_sizing()->set_chord_error(0.1);
+    EXPECT_TRUE(failed_with(improve(server_.stub(), sized).status, Cause::kUnsupported, "sizing"));
     v1::ImproveRequest bounded = small_improve(session_);
+    bounded.mutable_options()->set_mode(v1::STRICT);
     bounded.mutable_options()->set_max_deviation(0.1);
     EXPECT_TRUE(failed_with(improve(server_.stub(), bounded).status, Cause::kUnsupported, "max_deviation"));
     expect_unharmed();

@@ -49,7 +49,7 @@ TEST_F(MethodRpcsTest, ImproveStreamsProgressTheMeshAndTheRepresentation) {
     EXPECT_EQ(received.progress.front().stage(), "queued");
     EXPECT_EQ(received.representation->id(), "r1");
     EXPECT_EQ(received.representation->method(), v1::IMPROVE);
-    EXPECT_EQ(received.representation->mode(), v1::STRICT);
+    EXPECT_EQ(received.representation->mode(), v1::EXTENDED);
     EXPECT_TRUE(received.representation->bounds_satisfied());
     EXPECT_EQ(received.representation->source().faces(), mesh_.face_count());
     EXPECT_EQ(received.representation->source().representation(), "");
@@ -80,7 +80,8 @@ TEST_F(MethodRpcsTest, WithoutOptionsTheDefaultsAreUsedAndShown) {
     EXPECT_NEAR(used.tolerance(), 1e-3 * std::sqrt(3.0), 1e-9);
     EXPECT_EQ(used.feature_angle(), 40);
     EXPECT_GT(used.faces(), 0U);
-    EXPECT_FALSE(used.has_max_deviation());
+    EXPECT_NEAR(used.max_deviation(), 2e-3 * std::sqrt(3.0), 1e-9);
+    EXPECT_TRUE(received.representation->quality().has_deviation_max());
 }
 
 TEST_F(MethodRpcsTest, ControlFromAnImprovedMeshAsInThePapersTable) {
@@ -125,7 +126,7 @@ TEST_F(MethodRpcsTest, ProgressNamesTheStagesInOrderAndIsNoFlood) {
     for (const v1::Progress& progress : received.progress) {
         if (!stages.ends_with(progress.stage() + ' ')) stages += progress.stage() + ' ';
     }
-    const std::string all = "queued inspect subdivide evaluate simplify ";
+    const std::string all = "queued inspect subdivide evaluate simplify measure ";
     std::size_t at = 0;
     for (const v1::Progress& progress : received.progress) {
         const std::size_t found = all.find(progress.stage());

@@ -180,13 +180,15 @@ TEST_F(ResolutionRpcsTest, TheRepresentationDescribesTheResolutionAskedFor) {
 TEST_F(ResolutionRpcsTest, ResumesWhereAStreamBrokeOff) {
     Received part = set_resolution(server_.stub(), request(0, made_.faces()));
     ASSERT_TRUE(part.status.ok() && part.mesh);
-    const auto have = static_cast<std::uint32_t>(part.mesh->level());
+    const auto have = static_cast<std::uint32_t>(part.mesh->records());
+    const std::size_t level = part.mesh->level();
     v1::SetResolutionRequest rest = request(0, made_.faces_max());
     rest.set_resume_from(have);
     const Received received = set_resolution(server_.stub(), rest, std::move(part.mesh));
     ASSERT_TRUE(received.status.ok());
     EXPECT_EQ(received.base_parts, 0U);
-    EXPECT_EQ(received.records, (made_.faces_max() - made_.faces()) / 2);
+    EXPECT_EQ(received.mesh->level() - level, (made_.faces_max() - made_.faces()) / 2);
+    EXPECT_EQ(received.records, received.mesh->records() - have);
     expect_download(*received.mesh);
 }
 

@@ -158,7 +158,7 @@ private:
         std::vector<double> priorities(edges.size(), -1);
         tbb::enumerable_thread_specific<EdgeEvaluator<Policy>> evaluators(
             [&] { return EdgeEvaluator<Policy>(mesh_, state_, policy_, input_); });
-        context_.report({"evaluate", 0, mesh_.live_faces()});
+        report_evaluated(0);
         const auto evaluate_range = [&](const tbb::blocked_range<std::size_t>& range) {
             if (context_.cancelled()) return;
             EdgeEvaluator<Policy>& evaluator = evaluators.local();
@@ -170,7 +170,8 @@ private:
         };
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 1024), evaluate_range);
         if (context_.cancelled()) return ExecutionContext::cancelled_error();
-        context_.report({"evaluate", 1, mesh_.live_faces()});
+        report_evaluated(1);
+        evaluated_ = true;
 
         queue_.clear();
         std::fill(refusals_.begin(), refusals_.end(), 0);
@@ -251,6 +252,11 @@ private:
         for (const HalfEdge edge : open_) settle(edge);
     }
 
+    /// Stages follow one another: evaluating again between collapses is part of simplifying.
+    void report_evaluated(double fraction) const {
+        if (!evaluated_) context_.report({"evaluate", fraction, mesh_.live_faces()});
+    }
+
     void report_simplified() const {
         const double all = faces_start_ - std::min(faces_start_, input_.faces_min);
         context_.report({"simplify", all > 0 ? (faces_start_ - mesh_.live_faces()) / all : 1, mesh_.live_faces()});
@@ -270,6 +276,7 @@ private:
     std::vector<HalfEdge> open_;  // edges to evaluate again
     std::uint32_t visit_ = 0;
     std::uint32_t faces_start_ = 0;
+    bool evaluated_ = false;  // all edges, once
     EdgeEvaluator<Policy> evaluator_;
     FanReplacement replacement_;
     std::unique_ptr<DeviationGuard> guard_;  // null where there is no bound
