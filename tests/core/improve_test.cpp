@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <string>
 
 #include "tests/core/meshes.h"
 #include "vsplit/io/read_mesh.h"
@@ -151,6 +153,46 @@ TEST(ImproveTest, RefusesWhatItCannotDoAndSaysWhy) {
     EXPECT_EQ(cause(mesh, {.faces = 3}, "faces"), Cause::kInvalidOption);
     EXPECT_EQ(cause(mesh, {.faces = 100, .faces_min = 200}, "faces_min"), Cause::kInvalidOption);
     EXPECT_EQ(cause(mesh, {.mode = Mode::kExtended}, "mode"), Cause::kUnsupported);
+}
+
+TEST(ImproveTest, RefusesTwoFacesOnTheSameVertices) {
+    TriangleMesh pillow;
+    pillow.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    pillow.faces = {{0, 1, 2}, {0, 2, 1}};
+    const auto result = improve(pillow, {}, {}, ExecutionContext());
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().cause, Cause::kNonManifold);
+    EXPECT_NE(result.error().message.find("same three vertices"), std::string::npos) << result.error().message;
+}
+
+TEST(ImproveTest, WorksAtTheLargestCoordinates) {
+    TriangleMesh mesh = test::cube();
+    for (Vec3& p : mesh.positions) p = (p - Vec3::Constant(0.5)) * 2e15;
+    for (const Mode mode : {Mode::kStrict, Mode::kExtended}) {
+        ImproveOptions options;
+        options.mode = mode;
+        options.subdivision_size = 4e14;
+        expect_topology_kept(mesh, improved(mesh, options).mrr);
+    }
+}
+
+TEST(ImproveTest, AHubOfManyEdgesCostsNoMoreThanItsFaces) {
+    // Two apexes over a ring: each collapse of the ring has both in its neighbourhood.
+    constexpr std::uint32_t kRing = 20'000;
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 1}, {0, 0, -1}};
+    for (std::uint32_t i = 0; i < kRing; ++i) {
+        const double angle = 2 * 3.141592653589793 * i / kRing;
+        mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0);
+        const std::uint32_t here = 2 + i, after = 2 + (i + 1) % kRing;
+        mesh.faces.push_back({0, here, after});
+        mesh.faces.push_back({1, after, here});
+    }
+    ImproveOptions options;
+    options.mode = Mode::kStrict;
+    options.subdivision_size = 3;
+    const MethodResult result = improved(mesh, options);
+    EXPECT_LT(result.mrr.faces_min(), kRing);
 }
 
 }  // namespace

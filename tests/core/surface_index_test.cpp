@@ -156,6 +156,18 @@ TEST(SurfaceIndexTest, AnUpperBoundChangesNothingButWhatIsBeyond) {
     }
 }
 
+TEST(SurfaceIndexTest, WithinAgreesWithTheNearest) {
+    const TriangleMesh mesh = test::bumpy_sphere(3, 0.1, 6);
+    const SurfaceIndex index = surface_index(mesh);
+    test::Random random(8);
+    for (int i = 0; i < 500; ++i) {
+        const Vec3 p = random_point(random, 2);
+        const double distance = std::sqrt(index.closest(p).squared_distance);
+        EXPECT_TRUE(index.within(p, distance * (1 + 1e-12)));
+        EXPECT_FALSE(index.within(p, distance * (1 - 1e-12)));
+    }
+}
+
 TEST(SurfaceIndexTest, ManyEqualShapesAndFarScalesAreNoTrouble) {
     TriangleMesh mesh;
     for (int i = 0; i < 5000; ++i) mesh.positions.insert(mesh.positions.end(), {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)});

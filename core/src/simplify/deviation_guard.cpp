@@ -24,10 +24,6 @@ DeviationGuard::DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& sou
     }
 }
 
-bool DeviationGuard::near_source(const Vec3& p) const {
-    return source_.closest(p, limit_square_).element != SurfaceIndex::kNoElement;
-}
-
 bool DeviationGuard::stays_in_plane(const NewFace& f) const {
     constexpr double kNothing = 1e-3;  // of the limit
     return f.old_normal != Vec3::Zero() && std::abs(f.old_normal.dot(f.apex - f.b)) <= kNothing * limit_;
@@ -37,9 +33,9 @@ bool DeviationGuard::reaches_source(std::span<const NewFace> faces) const {
     bool apex_tried = false;
     for (const NewFace& f : faces) {
         if (stays_in_plane(f)) continue;
-        if (!apex_tried && !near_source(f.apex)) return false;
+        if (!apex_tried && !source_.within(f.apex, limit_)) return false;
         apex_tried = true;
-        if (!near_source((f.apex + f.b) / 2) || !near_source((f.apex + f.b + f.c) / 3)) return false;
+        if (!source_.within((f.apex + f.b) / 2, limit_) || !source_.within((f.apex + f.b + f.c) / 3, limit_)) return false;
     }
     return true;
 }

@@ -49,7 +49,6 @@ private:
 
     [[nodiscard]] Nearest nearest_face(const Vec3& point, std::span<const NewFace> faces, std::size_t guess) const;
     [[nodiscard]] bool stays_in_plane(const NewFace& f) const;
-    [[nodiscard]] bool near_source(const Vec3& p) const;
     [[nodiscard]] bool reaches_source(std::span<const NewFace> faces) const;
     [[nodiscard]] bool reached_by_source(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces);
 

@@ -336,7 +336,7 @@ void ShapeIndex<Shape>::search_leaf(const Vec3& p, std::uint32_t first, std::uin
 }
 
 template <class Shape>
-auto ShapeIndex<Shape>::closest(const Vec3& p, double upper_squared) const -> Hit {
+auto ShapeIndex<Shape>::search(const Vec3& p, double upper_squared, double enough) const -> Hit {
     struct Entry {
         float distance;
         std::uint32_t child;
@@ -354,6 +354,7 @@ auto ShapeIndex<Shape>::closest(const Vec3& p, double upper_squared) const -> Hi
         if (top.distance > bound) continue;
         if (top.count > 0) {
             search_leaf(p, top.child, top.count, hit);
+            if (hit.element != kNoElement && hit.squared_distance <= enough) return hit;
             bound = far_bound(hit.squared_distance);
             continue;
         }

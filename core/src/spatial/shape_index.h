@@ -33,7 +33,14 @@ public:
 
     /// The nearest point of all shapes that are no further from `p` than the root of `upper_squared`, a hint that saves most of
     /// the search where it is good; no element where there is none. Typically O(log shapes).
-    [[nodiscard]] Hit closest(const Vec3& p, double upper_squared = std::numeric_limits<double>::infinity()) const;
+    [[nodiscard]] Hit closest(const Vec3& p, double upper_squared = std::numeric_limits<double>::infinity()) const {
+        return search(p, upper_squared, -1);
+    }
+
+    /// Whether some shape is no further from `p` than `distance`. Often much quicker than `closest`.
+    [[nodiscard]] bool within(const Vec3& p, double distance) const {
+        return search(p, distance * distance, distance * distance).element != kNoElement;
+    }
 
 private:
     // Four floats that the compiler keeps in one register where there is one. Both compilers know these.
@@ -51,6 +58,8 @@ private:
     class Builder;
     struct Query;
 
+    /// Ends at the first shape whose squared distance is at most `enough`.
+    [[nodiscard]] Hit search(const Vec3& p, double upper_squared, double enough) const;
     [[nodiscard]] double far_bound(double squared_distance) const;
     void search_leaf(const Vec3& p, std::uint32_t first, std::uint32_t count, Hit& hit) const;
 
