@@ -39,10 +39,17 @@ public:
             const HalfEdge h = random_.below(p.mesh.half_edge_count());
             if (p.mesh.removed(h)) continue;
             switch (random_.below(8)) {
-                case 0: mover.relax(p.mesh.origin(h)); break;
-                case 1: mover.lift(p.mesh.origin(h), 0.8); break;
-                case 2: flipper.flip_around(p.mesh.origin(h)); break;
-                default: collapse(h);
+                case 0:
+                    mover.relax(p.mesh.origin(h));
+                    break;
+                case 1:
+                    mover.lift(p.mesh.origin(h), 0.8);
+                    break;
+                case 2:
+                    flipper.flip_around(p.mesh.origin(h));
+                    break;
+                default:
+                    collapse(h);
             }
         }
     }
@@ -164,7 +171,8 @@ struct OnTheSide {
     [[nodiscard]] bool admits(const Vec3& apex, const Vec3& old_normal = Vec3(0, 0, 1)) {
         std::vector<DeviationGuard::NewFace> faces;
         p.mesh.for_each_outgoing(v, [&](HalfEdge h) {
-            faces.push_back({face_of(h), apex, p.mesh.position(p.mesh.target(h)), p.mesh.position(p.mesh.origin(prev(h))), old_normal});
+            faces.push_back(
+                {face_of(h), apex, p.mesh.position(p.mesh.target(h)), p.mesh.position(p.mesh.origin(prev(h))), old_normal});
         });
         return guard.replace(old, faces);
     }

@@ -48,8 +48,8 @@ std::set<Edge> fresh(const Polishing& p, const std::set<Edge>& before) {
     return result;
 }
 
-/// A flat body: above the ridge left-right, `height` over the ridge front-back below, which a vertex on either side splits off from
-/// the rim. The simplifier numbers vertices its own way.
+/// A flat body: above the ridge left-right, `height` over the ridge front-back below, which a vertex on either side splits off
+/// from the rim. The simplifier numbers vertices its own way.
 struct FlatBody {
     Polishing p;
     std::uint32_t left = 0, right = 0, front = 0, back = 0;

@@ -38,8 +38,8 @@ struct Polishing {
     [[nodiscard]] FaceState measured(std::uint32_t face) const;
 };
 
-/// Fails where the state is not what measuring every live face anew gives, and where the mesh is no closed manifold without double
-/// edges and vertices of valence under 3.
+/// Fails where the state is not what measuring every live face anew gives, and where the mesh is no closed manifold without
+/// double edges and vertices of valence under 3.
 void expect_consistent(const Polishing& p);
 
 }  // namespace vsplit::test

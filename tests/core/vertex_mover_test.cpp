@@ -45,9 +45,9 @@ struct Star {
 };
 
 std::vector<NamedMesh> sources() {
-    return {{"jittered cube", jittered_cube(8, 0.15, 1)},   {"noisy cube", noisy_cube(7, 0.25, 2)},
-            {"bumpy sphere", bumpy_sphere(3, 0.06, 3)},     {"torus", torus(30, 9)},
-            {"cylinder", sliver_cylinder(24, 0.3)},         {"plate", plate_with_holes(2)}};
+    return {{"jittered cube", jittered_cube(8, 0.15, 1)}, {"noisy cube", noisy_cube(7, 0.25, 2)},
+            {"bumpy sphere", bumpy_sphere(3, 0.06, 3)},   {"torus", torus(30, 9)},
+            {"cylinder", sliver_cylinder(24, 0.3)},       {"plate", plate_with_holes(2)}};
 }
 
 using Promise = std::function<void(const Star& before, const Star& after, bool moved)>;
