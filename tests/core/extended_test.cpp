@@ -41,7 +41,7 @@ struct Job {
     std::optional<ControlOptions> controlling{};
 };
 
-void PrintTo(const Job& job, std::ostream* out) { *out << job.name; }
+std::ostream& operator<<(std::ostream& out, const Job& job) { return out << job.name; }
 
 std::vector<Job> jobs() {
     return {
@@ -79,7 +79,7 @@ TriangleMesh shown(const MethodResult& result) { return mesh_at(result.mrr, resu
 class Extended : public testing::TestWithParam<Job> {
 protected:
     const TriangleMesh source_ = GetParam().source();
-    const ExecutionContext context_;
+    const ExecutionContext context_{};
 };
 
 TEST_P(Extended, LevelsAreManifoldsOfTheSourcesTopologyAndGoBackExactly) {
