@@ -218,5 +218,23 @@ TEST(DeviationGuardTest, APointOfTheSourceIsNotLeftBehind) {
     }
 }
 
+TEST(DeviationGuardTest, AFaceIsTriedInItsMiddleAndAlongItsSides) {
+    const TriangleMesh flat = noisy_cube(6, 0, 1);
+    TriangleMesh dented = flat;
+    for (Vec3& p : dented.positions) {
+        if ((p - Vec3(0.5, 0.5, 1)).norm() < 1e-9) p.z() = 0.7;
+    }
+    const Vec3 unknown(0, 0, 0);  // else a face in the plane of the old one is not tried
+    const DeviationGuard::NewFace middle_over_it{0, {0.5, 0.9, 1}, {0.1, 0.3, 1}, {0.9, 0.3, 1}, unknown};
+    const DeviationGuard::NewFace side_over_it{0, {0.1, 0.5, 1}, {0.9, 0.5, 1}, {0.5, 0.95, 1}, unknown};
+    for (const auto& face : {middle_over_it, side_over_it}) {
+        for (const TriangleMesh& source : {flat, dented}) {
+            const SurfaceIndex index = surface_index(source);
+            DeviationGuard guard(HalfEdgeMesh(source), index, 0.1);
+            EXPECT_EQ(guard.replace({}, std::array{face}), source == flat);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace vsplit::test

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "simplify/policies.h"
 #include "tests/core/meshes.h"
 #include "tests/core/polishing.h"
+#include "tests/core/random.h"
 #include "vsplit/mrr/progressive_mesh.h"
 
 namespace vsplit::test {
@@ -93,6 +95,48 @@ TEST(VertexMoverTest, RelaxingBettersTheMeanShapeAroundEveryVertexItMoves) {
         const auto relax = [](VertexMover& mover, std::uint32_t v) { mover.relax(v); };
         EXPECT_GT(move_all(p, p.limits(), relax, promise), 5);
     }
+}
+
+/// A cone upside down: its flat top a fan around the origin, the rim as far away as chance has it.
+TriangleMesh ragged_fan(std::uint32_t corners, Random& random) {
+    TriangleMesh mesh{{{0, 0, 0}, {0, 0, -1}}, {}};
+    for (std::uint32_t n = 0; n < corners; ++n) {
+        const double angle = 2 * 3.14159265358979 * n / corners;
+        mesh.positions.push_back(random.uniform(0.05, 3) * Vec3(std::cos(angle), std::sin(angle), 0));
+        const std::uint32_t here = 2 + n, then = 2 + (n + 1) % corners;
+        mesh.faces.push_back({0, here, then});
+        mesh.faces.push_back({1, then, here});
+    }
+    return mesh;
+}
+
+TEST(VertexMoverTest, NothingFoldsWhereABetterShapeWould) {
+    Random random(1);
+    int moved = 0;
+    for (int n = 0; n < 300; ++n) {
+        Polishing p(ragged_fan(5 + random.below(4), random), 1);
+        VertexMover mover(p.mesh, p.state, p.log, nullptr, p.limits());
+        std::uint32_t v = 0;
+        while (p.mesh.position(v) != Vec3::Zero()) ++v;
+        n % 2 == 0 ? mover.relax(v) : mover.lift(v, 1);
+        moved += p.mesh.position(v) != Vec3::Zero() ? 1 : 0;
+        for (const FaceState& face : Star(p, v).figures) EXPECT_GT(face.normal.z(), 0.999F) << "fan " << n;
+    }
+    EXPECT_GT(moved, 150);
+}
+
+TEST(VertexMoverTest, TheErrorStaysWithinASmallTolerance) {
+    const TriangleMesh source = bumpy_sphere(3, 0.06, 3);
+    const auto relax = [](VertexMover& mover, std::uint32_t v) { mover.relax(v); };
+    const auto count = [&](double share) {
+        Polishing p(source, share);
+        return move_all(p, p.limits(), relax, [](const Star&, const Star&, bool) {});
+    };
+    const int loose = count(1e-2);
+    const int tight = count(1e-4);
+    EXPECT_GT(tight, 5);
+    EXPECT_LT(tight, loose) << "else the tolerance did nothing";
+    EXPECT_EQ(count(1e-9), 0);
 }
 
 constexpr double kGoal = 0.75;
