@@ -15,6 +15,7 @@
 #include "tests/core/random.h"
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/quality/stretch.h"
+#include "vsplit/subdivide/subdivide.h"
 
 namespace vsplit {
 namespace {
