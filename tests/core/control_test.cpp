@@ -104,6 +104,7 @@ TEST(ControlTest, FirstPhaseMendsViolators) {
     const TriangleMesh rough = improved_at_default(test::sliver_cylinder(80, 6));
     ControlOptions options;
     options.faces = 200;
+    options.mode = Mode::kStrict;  // the phases are the paper's
     const MethodResult result = controlled(rough, options);
     EXPECT_TRUE(result.bounds_satisfied()) << result.violations.front().count;
     EXPECT_GE(result.quality.stretch_min, 0.2);
@@ -136,6 +137,9 @@ TEST(ControlTest, DefaultsAreFilledIn) {
     EXPECT_EQ(used.faces, mesh.face_count());
     EXPECT_FALSE(used.max_size.has_value());
     EXPECT_FALSE(used.max_valence.has_value());
+    EXPECT_EQ(used.mode, Mode::kExtended);
+    EXPECT_DOUBLE_EQ(*used.max_deviation, 2 * *used.tolerance);
+    EXPECT_FALSE(default_options(mesh, {.mode = Mode::kStrict}).max_deviation.has_value());
 }
 
 TEST(ControlTest, RefusesWhatItCannotDoAndSaysWhy) {
@@ -153,7 +157,8 @@ TEST(ControlTest, RefusesWhatItCannotDoAndSaysWhy) {
     EXPECT_EQ(cause({.max_size = 0}, "max_size"), Cause::kInvalidOption);
     EXPECT_EQ(cause({.max_size = 1e-6}, "max_size"), Cause::kLimitExceeded);
     EXPECT_EQ(cause({.max_valence = 5}, "max_valence"), Cause::kInvalidOption);
-    EXPECT_EQ(cause({.mode = Mode::kExtended}, "mode"), Cause::kUnsupported);
+    EXPECT_EQ(cause({.max_deviation = 1, .mode = Mode::kStrict}, "max_deviation"), Cause::kUnsupported);
+    EXPECT_EQ(cause({.max_deviation = -1}, "max_deviation"), Cause::kInvalidOption);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "quality/deviation_of_index.h"
 #include "tests/core/meshes.h"
 #include "tests/core/random.h"
+#include "tests/core/sampled_deviation.h"
 #include "vsplit/io/read_mesh.h"
 #include "vsplit/method/improve.h"
 #include "vsplit/mrr/progressive_mesh.h"
@@ -30,22 +31,6 @@ Deviation measured(const TriangleMesh& result, const TriangleMesh& source, const
     return deviation ? *deviation : Deviation{};
 }
 
-/// The largest distance of points spread over every face: `steps` to a side.
-double sampled(const TriangleMesh& from, const TriangleMesh& to, int steps) {
-    const SurfaceIndex index = surface_index(to);
-    double largest = 0;
-    for (const Triangle& t : from.faces) {
-        for (int i = 0; i <= steps; ++i) {
-            for (int j = 0; i + j <= steps; ++j) {
-                const Vec3 p =
-                    (from.positions[t[0]] * i + from.positions[t[1]] * j + from.positions[t[2]] * (steps - i - j)) / steps;
-                largest = std::max(largest, index.closest(p).squared_distance);
-            }
-        }
-    }
-    return std::sqrt(largest);
-}
-
 /// Bounds in order, as near as asked, attained where they say, and no sample beyond.
 void expect_certain(const DirectedDeviation& d, const TriangleMesh& from, const TriangleMesh& to, const DeviationOptions& options,
                     int steps) {
@@ -57,7 +42,7 @@ void expect_certain(const DirectedDeviation& d, const TriangleMesh& from, const 
     EXPECT_LE(d.upper - d.lower, std::max(absolute, options.relative_error * d.lower) + rounding);
     EXPECT_NEAR(std::sqrt(surface_index(to).closest(d.at).squared_distance), d.lower, rounding);
     EXPECT_NEAR(surface_index(from).closest(d.at).squared_distance, 0, rounding) << "a point of what is measured from";
-    EXPECT_LE(sampled(from, to, steps), d.upper + rounding);
+    EXPECT_LE(test::sampled_deviation(from, to, steps), d.upper + rounding);
 }
 
 void expect_certain(const TriangleMesh& result, const TriangleMesh& source, const DeviationOptions& options, int steps) {
@@ -157,7 +142,7 @@ TEST(DeviationTest, TheMiddleOfAFaceCountsWhereNoVertexIsFar) {
     EXPECT_NEAR(d.from_source.lower, 0.2, 1e-12);
     EXPECT_NEAR(d.from_source.at.z(), -0.2, 1e-12);
     EXPECT_LT(d.to_source.upper, 0.065) << "above the dent its rim is near";
-    EXPECT_NEAR(d.to_source.lower, sampled(flat, dented, 400), 0.02 * d.to_source.upper);
+    EXPECT_NEAR(d.to_source.lower, test::sampled_deviation(flat, dented, 400), 0.02 * d.to_source.upper);
     expect_certain(flat, dented, {}, 64);
 }
 
@@ -166,7 +151,7 @@ TEST(DeviationTest, ASphereAgainstCoarseOnes) {
     for (unsigned coarse = 0; coarse < 4; ++coarse) {
         SCOPED_TRACE(coarse);
         const Deviation d = measured(test::icosphere(coarse), fine);
-        const double dense = sampled(test::icosphere(coarse), fine, 80 >> coarse);
+        const double dense = test::sampled_deviation(test::icosphere(coarse), fine, 80 >> coarse);
         EXPECT_LE(dense, d.to_source.upper + 1e-12);
         EXPECT_GE(dense, 0.95 * d.to_source.lower);
         expect_certain(test::icosphere(coarse), fine, {}, 8);
@@ -226,7 +211,7 @@ TEST(DeviationTest, WhenTheBudgetEndsTheBoundsAreWiderAndTrue) {
     EXPECT_GT(cut_short.max() - cut_short.measured(), 1e-6) << "there was work left";
     EXPECT_LE(cut_short.measured(), whole.max());
     EXPECT_GE(cut_short.max(), whole.measured());
-    EXPECT_GE(cut_short.to_source.upper, sampled(coarse, fine, 60));
+    EXPECT_GE(cut_short.to_source.upper, test::sampled_deviation(coarse, fine, 60));
 }
 
 TEST(DeviationTest, IsTheSameForAnyNumberOfThreads) {

@@ -76,6 +76,7 @@ TEST(ImproveTest, ReachesThePapersQualityOnASliveredPart) {
     options.subdivision_size = 0.0025;
     options.tolerance = 0.000255;
     options.faces = 10000;
+    options.mode = Mode::kStrict;
     const MethodResult result = improved(*mesh, options);
     EXPECT_EQ(result.faces, 10000U);
     EXPECT_GE(result.quality.stretch_mean, 0.68);
@@ -88,6 +89,7 @@ TEST(ImproveTest, ReachesThePapersQualityOnAFiniteElementMesh) {
     options.subdivision_size = 0.025;
     options.tolerance = 0.0025;
     options.faces = 4000;
+    options.mode = Mode::kStrict;
     const MethodResult result = improved(*mesh, options);
     EXPECT_EQ(result.faces, 4000U);
     EXPECT_GE(result.quality.stretch_mean, 0.78);
@@ -106,10 +108,15 @@ TEST(ImproveTest, DefaultsAreFilledInAndKept) {
     const TriangleMesh mesh = test::cube();
     const double diagonal = bounding_box(mesh).diagonal();
     const ImproveOptions used = default_options(mesh, {}, {});
+    EXPECT_EQ(used.mode, Mode::kExtended);
     EXPECT_DOUBLE_EQ(*used.tolerance, 1e-3 * diagonal);
-    EXPECT_DOUBLE_EQ(*used.subdivision_size, 1e-2 * diagonal);
-    EXPECT_EQ(used.mode, Mode::kStrict);
-    EXPECT_FALSE(used.max_deviation.has_value());
+    EXPECT_DOUBLE_EQ(*used.max_deviation, 2e-3 * diagonal);
+    EXPECT_DOUBLE_EQ(*used.subdivision_size, 1.5e-2 * diagonal);
+    const ImproveOptions strict = default_options(mesh, {.mode = Mode::kStrict}, {});
+    EXPECT_EQ(strict.mode, Mode::kStrict);
+    EXPECT_DOUBLE_EQ(*strict.tolerance, 1e-3 * diagonal);
+    EXPECT_FALSE(strict.max_deviation.has_value());
+    EXPECT_DOUBLE_EQ(*strict.subdivision_size, 1e-2 * diagonal);
     ImproveOptions asked;
     asked.tolerance = 0.5;
     asked.faces = 77;
@@ -118,7 +125,7 @@ TEST(ImproveTest, DefaultsAreFilledInAndKept) {
 }
 
 TEST(ImproveTest, AResolutionOutOfRangeGivesTheNearest) {
-    ImproveOptions options;
+    ImproveOptions options{.subdivision_size = 0.1};
     options.faces = 4'000'000'000U;
     const MethodResult fine = improved(test::torus(30, 20), options);
     EXPECT_EQ(fine.faces, fine.mrr.faces_max());
@@ -147,12 +154,13 @@ TEST(ImproveTest, RefusesWhatItCannotDoAndSaysWhy) {
     EXPECT_EQ(cause(test::sliver_cylinder(500, 1e6), {.subdivision_size = 1e-3}, "subdivision_size"), Cause::kLimitExceeded);
     EXPECT_EQ(cause(mesh, {.tolerance = 0}, "tolerance"), Cause::kInvalidOption);
     EXPECT_EQ(cause(mesh, {.tolerance = nan}, "tolerance"), Cause::kInvalidOption);
-    EXPECT_EQ(cause(mesh, {.max_deviation = 1}, "max_deviation"), Cause::kUnsupported);
+    EXPECT_EQ(cause(mesh, {.max_deviation = 1, .mode = Mode::kStrict}, "max_deviation"), Cause::kUnsupported);
+    EXPECT_EQ(cause(mesh, {.max_deviation = 0}, "max_deviation"), Cause::kInvalidOption);
+    EXPECT_EQ(cause(mesh, {.max_deviation = nan}, "max_deviation"), Cause::kInvalidOption);
     EXPECT_EQ(cause(mesh, {.feature_angle = 181}, "feature_angle"), Cause::kInvalidOption);
     EXPECT_EQ(cause(mesh, {.feature_weight = -0.1}, "feature_weight"), Cause::kInvalidOption);
     EXPECT_EQ(cause(mesh, {.faces = 3}, "faces"), Cause::kInvalidOption);
     EXPECT_EQ(cause(mesh, {.faces = 100, .faces_min = 200}, "faces_min"), Cause::kInvalidOption);
-    EXPECT_EQ(cause(mesh, {.mode = Mode::kExtended}, "mode"), Cause::kUnsupported);
 }
 
 TEST(ImproveTest, RefusesTwoFacesOnTheSameVertices) {

@@ -6,24 +6,19 @@
 #include <optional>
 #include <set>
 
-#include "method/prepare.h"
 #include "simplify/collapse_log.h"
 #include "simplify/edge_evaluator.h"
 #include "simplify/edge_queue.h"
 #include "simplify/simplify.h"
 #include "tests/core/meshes.h"
+#include "tests/core/polishing.h"
 #include "tests/core/random.h"
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/quality/stretch.h"
+#include "vsplit/subdivide/subdivide.h"
 
 namespace vsplit {
 namespace {
-
-SimplifyInput make_input(const TriangleMesh& mesh, double tolerance_share) {
-    SubdividedMesh same{mesh, std::vector<std::uint32_t>(mesh.faces.size())};
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) same.parent[f] = f;
-    return prepare(mesh, std::move(same), {FeatureOptions{}, tolerance_share * bounding_box(mesh).diagonal(), 4});
-}
 
 ControlPolicy control_policy(const TriangleMesh& mesh) {
     ControlPolicy policy;
@@ -99,7 +94,7 @@ TEST(SimplifierTest, CollapsesInExactlyTheOrderOfTheLiteralAlgorithm) {
     for (const TriangleMesh& mesh :
          {test::icosphere(2), test::torus(16, 10), test::bumpy_sphere(2, 0.05, 3), test::plate_with_holes(2),
           test::sliver_cylinder(24, 6), test::joined(test::cube_frame(), test::icosphere(1), Vec3(20, 0, 0))}) {
-        const SimplifyInput input = make_input(mesh, 0.05);
+        const SimplifyInput input = test::simplify_input(mesh, 0.05);
         const auto improved = simplify(input, ImprovePolicy{}, context);
         ASSERT_TRUE(improved);
         EXPECT_GT(improved->levels(), 0U);
@@ -156,7 +151,7 @@ ByHand by_hand(const TriangleMesh& mesh, std::uint32_t i, std::uint32_t j, const
 
 TEST(EdgeEvaluatorTest, PrioritiesAreThePapersEquations) {
     const TriangleMesh source = test::bumpy_sphere(2, 0.05, 9);
-    const SimplifyInput input = make_input(source, 0.2);
+    const SimplifyInput input = test::simplify_input(source, 0.2);
     const TriangleMesh& mesh = input.mesh;
     const HalfEdgeMesh half_edges(mesh);
     const ImprovePolicy improve_policy;
@@ -192,7 +187,7 @@ TEST(EdgeEvaluatorTest, LinkConditionIsThatOfTheDefinition) {
     cones.positions = {Vec3(1, 0, 0), Vec3(-0.5, 0.9, 0), Vec3(-0.5, -0.9, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)};
     cones.faces = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}};
     for (const TriangleMesh& mesh : {cones, test::tetrahedron(), test::torus(3, 3), test::cube()}) {
-        const SimplifyInput input = make_input(mesh, 1e6);
+        const SimplifyInput input = test::simplify_input(mesh, 1e6);
         const HalfEdgeMesh half_edges(input.mesh);
         const LocalState state = initial_state(input);
         const ImprovePolicy policy;
@@ -243,7 +238,7 @@ TEST(EdgeQueueTest, BehavesLikeASortedMap) {
 }
 
 TEST(SimplifierTest, SameBytesForAnyNumberOfThreads) {
-    const SimplifyInput input = make_input(test::bumpy_sphere(4, 0.02, 4), 0.01);
+    const SimplifyInput input = test::simplify_input(test::bumpy_sphere(4, 0.02, 4), 0.01);
     const ExecutionContext one({}, 1);
     const ExecutionContext four({}, 4);
     const auto left = simplify(input, ImprovePolicy{}, one);
@@ -257,19 +252,19 @@ TEST(SimplifierTest, KeepsEveryCollapseWithinTolerance) {
     // With a tolerance of nothing a closed sphere, curved everywhere, cannot lose a vertex; a cube cut fine can, down to its
     // corners.
     const ExecutionContext context;
-    const auto sphere = simplify(make_input(test::icosphere(3), 1e-12), ImprovePolicy{}, context);
+    const auto sphere = simplify(test::simplify_input(test::icosphere(3), 1e-12), ImprovePolicy{}, context);
     ASSERT_TRUE(sphere);
     EXPECT_EQ(sphere->levels(), 0U);
     const auto fine = subdivide_one_to_four(test::cube(), 3, 10000, context);
     ASSERT_TRUE(fine);
-    const auto box = simplify(make_input(fine->mesh, 1e-7), ImprovePolicy{}, context);
+    const auto box = simplify(test::simplify_input(fine->mesh, 1e-7), ImprovePolicy{}, context);
     ASSERT_TRUE(box);
     EXPECT_LT(box->faces_min(), fine->mesh.face_count() / 4);
     EXPECT_NEAR(enclosed_volume(box->base), 1, 1e-5);
 }
 
 TEST(SimplifierTest, StopsAtFacesMinAndWhenCancelled) {
-    SimplifyInput input = make_input(test::icosphere(3), 1);
+    SimplifyInput input = test::simplify_input(test::icosphere(3), 1);
     input.faces_min = 301;
     const ExecutionContext context;
     const auto coarse = simplify(input, ImprovePolicy{}, context);
@@ -287,7 +282,7 @@ TEST(SimplifierTest, CancelIsObeyedFromWithinAReport) {
         if (progress.stage == "simplify" && ++reports == 2) self->cancel();
     });
     self = &context;
-    const auto stopped = simplify(make_input(test::icosphere(6), 0.2), ImprovePolicy{}, context);
+    const auto stopped = simplify(test::simplify_input(test::icosphere(6), 0.2), ImprovePolicy{}, context);
     ASSERT_FALSE(stopped);
     EXPECT_EQ(stopped.error().cause, Cause::kCancelled);
     EXPECT_EQ(reports, 2) << "nothing is reported after the cancel";
