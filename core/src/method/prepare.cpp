@@ -77,10 +77,9 @@ bool has_needles(const TriangleMesh& mesh) {
 
 }  // namespace
 
-void guard(SimplifyInput& input, const TriangleMesh& source, double max_deviation) {
-    constexpr double kShareAtSamples = 0.85;  // what is left is for what lies between the samples
+void guard(SimplifyInput& input, const TriangleMesh& source, double distance) {
     input.source = std::make_shared<const SurfaceIndex>(surface_index(has_needles(source) ? input.mesh : source));
-    input.max_deviation = kShareAtSamples * max_deviation;
+    input.max_deviation = distance;
 }
 
 namespace {
@@ -96,11 +95,17 @@ void show(MethodResult& result, std::size_t level, const TriangleMesh& mesh, dou
 Status measure(MethodResult& result, const TriangleMesh& source, const SurfaceIndex* source_index, std::optional<double> limit,
                const ExecutionContext& context) {
     if (source_index == nullptr) return Done{};
+    DeviationOptions options;
+    if (limit) {
+        // The upper bound is what counts, and a bound may be far below the default error.
+        options.relative_error = 0.01;
+        options.absolute_error = std::min(0.01 * *limit, 1e-5 * bounding_box(source).diagonal());
+    }
     std::size_t level = result.mrr.level_for(result.faces);
     for (;;) {
         const TriangleMesh mesh = mesh_at(result.mrr, level);
         const SurfaceIndex index = surface_index(mesh);
-        const Expected<Deviation> deviation = measure_deviation({mesh, index}, {source, *source_index}, {}, context);
+        const Expected<Deviation> deviation = measure_deviation({mesh, index}, {source, *source_index}, options, context);
         if (!deviation) return deviation.error();
         show(result, level, mesh, deviation->max());
         if (!limit || deviation->max() <= *limit || level == result.mrr.levels()) return Done{};

@@ -33,8 +33,21 @@ void fill_tolerances(double diagonal, Options& options) {
     }
 }
 
-/// Has the simplifier keep within `max_deviation` of `source`, both ways. O(faces log faces).
-void guard(SimplifyInput& input, const TriangleMesh& source, double max_deviation);
+/// Has the simplifier keep its samples within `distance` of `source`, both ways. O(faces log faces).
+void guard(SimplifyInput& input, const TriangleMesh& source, double distance);
+
+/// `attempt(share)` simplifies with samples kept to that share of max_deviation, and measures. What lies between samples may be
+/// further away: where `limit` is given and not kept at any resolution, it is tried again with less.
+template <class Attempt>
+[[nodiscard]] Expected<MethodResult> within(std::optional<double> limit, Attempt attempt) {
+    constexpr double kFirstShare = 0.85;
+    constexpr double kLastShare = 0.1;
+    for (double share = kFirstShare;; share /= 2) {
+        Expected<MethodResult> result = attempt(share);
+        const bool kept = !result || !limit || result->quality.deviation_max.value_or(0) <= *limit;
+        if (kept || share / 2 < kLastShare) return result;
+    }
+}
 
 /// Measures how far the result's shown resolution and its source are apart, and where that is more than `limit` shows the
 /// coarsest finer resolution that keeps to it, or else the finest. Does nothing without an index of the source. Stage "measure".

@@ -31,7 +31,7 @@ public:
 
     /// Of the vertices about `most_points` are kept, evenly spread.
     /// \pre `mesh` is the dense mesh, whose surface is the source's; `source` outlives this.
-    DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit, std::uint32_t most_points);
+    DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit, std::uint32_t most_points = kNone);
 
     /// Whether `faces` may stand where those of `old_faces` are; if so their points go over to them. O(faces * points of them).
     [[nodiscard]] bool replace(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces);

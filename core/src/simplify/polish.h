@@ -2,6 +2,7 @@
 
 #include "simplify/edge_flipper.h"
 #include "simplify/vertex_mover.h"
+#include "vsplit/base/execution_context.h"
 
 namespace vsplit {
 
@@ -13,8 +14,8 @@ public:
     Polisher(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, DeviationGuard* guard, const PolishLimits& limits)
         : mesh_(mesh), flipper_(mesh, state, log, guard, limits), mover_(mesh, state, log, guard, limits) {}
 
-    /// `relaxations` rounds for the mean shape, then `lifts` for the worst faces. O(faces * rounds).
-    void polish(int relaxations, int lifts);
+    /// `relaxations` rounds for the mean shape, then `lifts` for the worst faces. Stops early when cancelled. O(faces * rounds).
+    void polish(int relaxations, int lifts, const ExecutionContext& context);
 
     /// Flips after a collapse to v; see EdgeFlipper.
     [[nodiscard]] const std::vector<std::uint32_t>& flip_around(std::uint32_t v) {
@@ -24,7 +25,7 @@ public:
 
 private:
     template <class Move>
-    void move_all(Move move);
+    void move_all(const ExecutionContext& context, Move move);
 
     HalfEdgeMesh& mesh_;
     EdgeFlipper flipper_;

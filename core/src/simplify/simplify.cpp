@@ -95,16 +95,20 @@ private:
         }
     }
 
+    /// Whether a collapse leaves no fewer than `faces`.
+    [[nodiscard]] bool has_collapses_above(std::uint32_t faces) const { return mesh_.live_faces() >= std::uint64_t{faces} + 2; }
+
     /// From checkpoint to checkpoint, so that no resolution is far from a polished one.
     [[nodiscard]] Status collapse_and_polish() {
-        polisher_.polish(kDenseRelaxations, 0);
-        for (std::uint32_t faces = mesh_.live_faces(); faces >= input_.faces_min + 2;) {
+        polisher_.polish(kDenseRelaxations, 0, context_);
+        for (std::uint32_t faces = mesh_.live_faces(); has_collapses_above(input_.faces_min);) {
             const std::uint32_t goal = next_checkpoint(faces);
             if (Status done = collapse_in_phases(goal); !done) return done;
             // Polishing makes some more collapses valid, but ever fewer.
-            const bool stuck = mesh_.live_faces() >= goal + 2 && mesh_.live_faces() > kStuckShare * faces;
+            const bool stuck = has_collapses_above(goal) && mesh_.live_faces() > kStuckShare * faces;
             const bool final = goal == input_.faces || (stuck && mesh_.live_faces() > input_.faces);
-            polisher_.polish(final ? kFinalRelaxations : kCheckpointRelaxations, final ? kFinalLifts : 0);
+            polisher_.polish(final ? kFinalRelaxations : kCheckpointRelaxations, final ? kFinalLifts : 0, context_);
+            if (context_.cancelled()) return ExecutionContext::cancelled_error();
             if (stuck) break;
             faces = mesh_.live_faces();
         }
@@ -114,7 +118,7 @@ private:
     /// A fifth of the faces fewer, and the resolution asked for in any case.
     [[nodiscard]] std::uint32_t next_checkpoint(std::uint32_t faces) const {
         const auto goal = static_cast<std::uint32_t>(kCheckpointShare * faces);
-        const bool passes_asked = faces > input_.faces + 1 && goal < input_.faces + input_.faces / 10;
+        const bool passes_asked = has_collapses_above(input_.faces) && goal < 1.1 * input_.faces;
         return std::max(passes_asked ? input_.faces : goal, input_.faces_min);
     }
 
@@ -131,7 +135,7 @@ private:
     [[nodiscard]] Status collapse_all(std::uint32_t faces) {
         if (Status queued = evaluate_all_edges(); !queued) return queued;
         std::uint32_t collapses = 0;
-        while (mesh_.live_faces() >= faces + 2) {
+        while (has_collapses_above(faces)) {
             const HalfEdge edge = queue_.top();
             if (edge == kNone) break;
             collapse(edge);
