@@ -52,8 +52,11 @@ vsplit::TriangleMesh densify(const vsplit::TriangleMesh& mesh, std::uint32_t fac
 
 Outcome run_vsplit(const vsplit::TriangleMesh& dense, std::uint32_t target) {
     const double diagonal = vsplit::bounding_box(dense).diagonal();
-    const vsplit::ImproveOptions options{
-        .subdivision_size = diagonal, .tolerance = 0.01 * diagonal, .faces = target, .faces_min = target};
+    const vsplit::ImproveOptions options{.subdivision_size = diagonal,
+                                         .tolerance = 0.01 * diagonal,
+                                         .faces = target,
+                                         .faces_min = target,
+                                         .mode = vsplit::Mode::kStrict};
     const vsplit::ExecutionContext context({}, 1);
     const auto start = Clock::now();
     const auto result = vsplit::improve(dense, options, {}, context);
