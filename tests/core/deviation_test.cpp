@@ -168,7 +168,7 @@ TEST(DeviationTest, HoldsForTrianglesInAnyPosition) {
 
 TEST(DeviationTest, HoldsForDegenerateFaces) {
     TriangleMesh odd = random_triangles(12, 5);
-    for (std::uint32_t f = 0; f < 12; ++f) {
+    for (std::size_t f = 0; f < 12; ++f) {
         if (f % 3 == 0) odd.positions[3 * f + 1] = odd.positions[3 * f];
         if (f % 3 == 1) odd.positions[3 * f + 2] = (odd.positions[3 * f] + odd.positions[3 * f + 1]) / 2;
         if (f % 6 == 3) odd.positions[3 * f + 2] = odd.positions[3 * f];

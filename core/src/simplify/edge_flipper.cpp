@@ -37,13 +37,15 @@ struct NewFace {
 
 /// The faces (a, b, c) of h and (b, a, d) of its twin, which would become (d, c, a) and (c, d, b).
 struct EdgeFlipper::Quad {
+    FaceState of_h, of_twin;
     std::uint32_t a, b, c, d;
     Vec3 pa, pb, pc, pd;
-    FaceState of_h, of_twin;
     NewFace left, right;
 
     Quad(const HalfEdgeMesh& mesh, const LocalState& state, HalfEdge h)
-        : a(mesh.origin(h)),
+        : of_h(state.faces[face_of(h)]),
+          of_twin(state.faces[face_of(mesh.twin(h))]),
+          a(mesh.origin(h)),
           b(mesh.target(h)),
           c(mesh.origin(prev(h))),
           d(mesh.origin(prev(mesh.twin(h)))),
@@ -51,8 +53,6 @@ struct EdgeFlipper::Quad {
           pb(mesh.position(b)),
           pc(mesh.position(c)),
           pd(mesh.position(d)),
-          of_h(state.faces[face_of(h)]),
-          of_twin(state.faces[face_of(mesh.twin(h))]),
           left(pd, pc, pa),
           right(pc, pd, pb) {}
 
