@@ -250,8 +250,9 @@ Status require_faces_and_edges(const MeshReport& report) {
     }
     if (const Finding* f = find_kind(report, Kind::kDuplicateFace)) {
         return Error{Cause::kNonManifold,
-                     std::to_string(f->count) + " faces have the same three vertices as another one: " + places(*f, false) +
-                         " (face indices); a sheet needs a thickness, or one face only",
+                     std::to_string(f->count) +
+                         " of the faces lie on the same three vertices as another one, the first is face " +
+                         std::to_string(f->elements.front()) + "; a sheet needs a thickness, or one face only",
                      ""};
     }
     return Done{};

@@ -133,6 +133,7 @@ struct Attempt {
     const ControlOptions& asked;
     const ControlOptions& used;
     double share = 0;
+    bool last = true;  // see `within`
 };
 
 Expected<MethodResult> simplify_and_measure(const TriangleMesh& mesh, SubdividedMesh dense, const Attempt& a,
@@ -147,7 +148,7 @@ Expected<MethodResult> simplify_and_measure(const TriangleMesh& mesh, Subdivided
                                           : simplify(std::move(input), policy, context);
     if (!mrr) return mrr.error();
     MethodResult result = describe_resolution(std::move(*mrr), *a.used.faces);
-    const Status measured = measure(result, mesh, source.get(), a.asked.max_deviation, context);
+    const Status measured = measure(result, mesh, source.get(), a.asked.max_deviation, a.last, context);
     return measured ? Expected<MethodResult>(std::move(result)) : measured.error();
 }
 
@@ -162,10 +163,10 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
 
     Expected<SubdividedMesh> subdivided = subdivide(mesh, used, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    const auto attempt = [&](double share) {
+    const auto attempt = [&](double share, bool last) {
         // A second attempt needs the subdivided mesh again; only a given max_deviation asks for one.
         SubdividedMesh dense = options.max_deviation ? *subdivided : std::move(*subdivided);
-        return simplify_and_measure(mesh, std::move(dense), {options, used, share}, context);
+        return simplify_and_measure(mesh, std::move(dense), {options, used, share, last}, context);
     };
     Expected<MethodResult> tried = within(options.max_deviation, attempt);
     if (!tried) return tried.error();

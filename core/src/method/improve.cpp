@@ -76,6 +76,7 @@ struct Attempt {
     const ImproveOptions& asked;
     const ImproveOptions& used;
     double share = 0;
+    bool last = true;  // see `within`
 };
 
 Expected<MethodResult> simplify_and_measure(const TriangleMesh& mesh, SubdividedMesh dense, const Attempt& a,
@@ -90,7 +91,7 @@ Expected<MethodResult> simplify_and_measure(const TriangleMesh& mesh, Subdivided
     if (!mrr) return mrr.error();
     const std::uint32_t least = a.asked.faces || extended ? 0 : kFacesOverCoarsest * mrr->faces_min();
     MethodResult result = describe_resolution(std::move(*mrr), std::max(*a.used.faces, least));
-    const Status measured = measure(result, mesh, source.get(), a.asked.max_deviation, context);
+    const Status measured = measure(result, mesh, source.get(), a.asked.max_deviation, a.last, context);
     return measured ? Expected<MethodResult>(std::move(result)) : measured.error();
 }
 
@@ -105,10 +106,10 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
 
     Expected<SubdividedMesh> subdivided = subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    const auto attempt = [&](double share) {
+    const auto attempt = [&](double share, bool last) {
         // A second attempt needs the subdivided mesh again; only a given max_deviation asks for one.
         SubdividedMesh dense = options.max_deviation ? *subdivided : std::move(*subdivided);
-        return simplify_and_measure(mesh, std::move(dense), {options, used, share}, context);
+        return simplify_and_measure(mesh, std::move(dense), {options, used, share, last}, context);
     };
     Expected<MethodResult> tried = within(options.max_deviation, attempt);
     if (!tried) return tried.error();

@@ -93,7 +93,7 @@ void show(MethodResult& result, std::size_t level, const TriangleMesh& mesh, dou
 }  // namespace
 
 Status measure(MethodResult& result, const TriangleMesh& source, const SurfaceIndex* source_index, std::optional<double> limit,
-               const ExecutionContext& context) {
+               bool may_refine, const ExecutionContext& context) {
     if (source_index == nullptr) return Done{};
     DeviationOptions options;
     if (limit) {
@@ -108,7 +108,8 @@ Status measure(MethodResult& result, const TriangleMesh& source, const SurfaceIn
         const Expected<Deviation> deviation = measure_deviation({mesh, index}, {source, *source_index}, options, context);
         if (!deviation) return deviation.error();
         show(result, level, mesh, deviation->max());
-        if (!limit || deviation->max() <= *limit || level == result.mrr.levels()) return Done{};
+        const bool kept = !limit || deviation->max() <= *limit;
+        if (kept || !may_refine || level == result.mrr.levels()) return Done{};
         level = std::min(result.mrr.levels(), level + std::max<std::size_t>(1, result.mrr.levels() / 10));
     }
 }

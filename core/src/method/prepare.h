@@ -36,24 +36,25 @@ void fill_tolerances(double diagonal, Options& options) {
 /// Has the simplifier keep its samples within `distance` of `source`, both ways. O(faces log faces).
 void guard(SimplifyInput& input, const TriangleMesh& source, double distance);
 
-/// `attempt(share)` simplifies with samples kept to that share of max_deviation, and measures. What lies between samples may be
-/// further away: where `limit` is given and not kept at any resolution, it is tried again with less.
+/// `attempt(share, last)` simplifies with samples kept to that share of max_deviation, and measures. What lies between samples
+/// may be further away: where `limit` is given and not kept at the resolution asked for, it is tried again with less, and the
+/// last time finer resolutions count too.
 template <class Attempt>
 [[nodiscard]] Expected<MethodResult> within(std::optional<double> limit, Attempt attempt) {
     constexpr double kFirstShare = 0.85;
-    constexpr double kLastShare = 0.1;
+    constexpr double kLastShare = 0.2;
     for (double share = kFirstShare;; share /= 2) {
-        Expected<MethodResult> result = attempt(share);
-        const bool kept = !result || !limit || result->quality.deviation_max.value_or(0) <= *limit;
-        if (kept || share / 2 < kLastShare) return result;
+        const bool last = !limit || share / 2 < kLastShare;
+        Expected<MethodResult> result = attempt(share, last);
+        if (last || !result || result->quality.deviation_max.value_or(0) <= *limit) return result;
     }
 }
 
-/// Measures how far the result's shown resolution and its source are apart, and where that is more than `limit` shows the
-/// coarsest finer resolution that keeps to it, or else the finest. Does nothing without an index of the source. Stage "measure".
+/// Measures how far the result's shown resolution and its source are apart. Where that is more than `limit` and it `may_refine`,
+/// shows a finer resolution that keeps to it, or else the finest. Does nothing without an index of the source. Stage "measure".
 /// \return CANCELLED.
 [[nodiscard]] Status measure(MethodResult& result, const TriangleMesh& source, const SurfaceIndex* source_index,
-                             std::optional<double> limit, const ExecutionContext& context);
+                             std::optional<double> limit, bool may_refine, const ExecutionContext& context);
 
 /// A violation where the shown resolution was measured to be further than `limit` from the source.
 void report_deviation(MethodResult& result, std::optional<double> limit);
