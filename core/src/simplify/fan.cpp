@@ -17,6 +17,7 @@
 
 // The columns of a fan never overlap, which the compiler cannot see.
 #if defined(__clang__)
+#pragma clang diagnostic ignored "-Wpass-failed"  // without optimisation, or under sanitizers, loops stay as they are
 #define VSPLIT_INDEPENDENT_STEPS _Pragma("clang loop vectorize(assume_safety)")
 #elif defined(__GNUC__)
 #define VSPLIT_INDEPENDENT_STEPS _Pragma("GCC ivdep")
