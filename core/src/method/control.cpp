@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/thread_limit.h"
-#include "method/prepare.h"
+#include "method/run_policy.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/quality/stretch.h"
@@ -128,30 +128,6 @@ std::vector<Violation> find_violations(const TriangleMesh& mesh, const ControlOp
 
 namespace {
 
-/// What was asked for, what is used for it, and the share of max_deviation to keep samples to.
-struct Attempt {
-    const ControlOptions& asked;
-    const ControlOptions& used;
-    double share = 0;
-    bool last = true;  // see `within`
-};
-
-Expected<MethodResult> simplify_and_measure(const TriangleMesh& mesh, SubdividedMesh dense, const Attempt& a,
-                                            const ExecutionContext& context) {
-    const bool extended = a.used.mode == Mode::kExtended;
-    SimplifyInput input =
-        prepare(mesh, std::move(dense), {feature_options(a.used), *a.used.tolerance, *a.used.faces_min, *a.used.faces});
-    if (extended) guard(input, mesh, a.share * *a.used.max_deviation);
-    const std::shared_ptr<const SurfaceIndex> source = input.source;
-    const ControlPolicy policy = policy_of(a.used, bounding_box(mesh).diagonal());
-    Expected<MultiresMesh> mrr = extended ? simplify(std::move(input), Extended<ControlPolicy>{policy}, context)
-                                          : simplify(std::move(input), policy, context);
-    if (!mrr) return mrr.error();
-    MethodResult result = describe_resolution(std::move(*mrr), *a.used.faces);
-    const Status measured = measure(result, mesh, source.get(), a.asked.max_deviation, a.last, context);
-    return measured ? Expected<MethodResult>(std::move(result)) : measured.error();
-}
-
 Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptions& options, const MethodLimits& limits,
                                     const ExecutionContext& context) {
     const auto start = std::chrono::steady_clock::now();
@@ -163,12 +139,14 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
 
     Expected<SubdividedMesh> subdivided = subdivide(mesh, used, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    const auto attempt = [&](double share, bool last) {
-        // A second attempt needs the subdivided mesh again; only a given max_deviation asks for one.
-        SubdividedMesh dense = options.max_deviation ? *subdivided : std::move(*subdivided);
-        return simplify_and_measure(mesh, std::move(dense), {options, used, share, last}, context);
-    };
-    Expected<MethodResult> tried = within(options.max_deviation, attempt);
+    const bool extended = used.mode == Mode::kExtended;
+    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces},
+                        extended,
+                        used.max_deviation.value_or(0),
+                        options.max_deviation};
+    const auto faces_of = [&](const MultiresMesh&) { return *used.faces; };
+    Expected<MethodResult> tried =
+        run_policy(mesh, std::move(*subdivided), run, policy_of(used, bounding_box(mesh).diagonal()), faces_of, context);
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
     result.options = used;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/thread_limit.h"
-#include "method/prepare.h"
+#include "method/run_policy.h"
 #include "vsplit/mesh/inspect.h"
 
 namespace vsplit {
@@ -71,30 +71,6 @@ ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& o
 
 namespace {
 
-/// What was asked for, what is used for it, and the share of max_deviation to keep samples to.
-struct Attempt {
-    const ImproveOptions& asked;
-    const ImproveOptions& used;
-    double share = 0;
-    bool last = true;  // see `within`
-};
-
-Expected<MethodResult> simplify_and_measure(const TriangleMesh& mesh, SubdividedMesh dense, const Attempt& a,
-                                            const ExecutionContext& context) {
-    const bool extended = a.used.mode == Mode::kExtended;
-    SimplifyInput input =
-        prepare(mesh, std::move(dense), {feature_options(a.used), *a.used.tolerance, *a.used.faces_min, *a.used.faces});
-    if (extended) guard(input, mesh, a.share * *a.used.max_deviation);
-    const std::shared_ptr<const SurfaceIndex> source = input.source;
-    Expected<MultiresMesh> mrr = extended ? simplify(std::move(input), Extended<ImprovePolicy>{}, context)
-                                          : simplify(std::move(input), ImprovePolicy{}, context);
-    if (!mrr) return mrr.error();
-    const std::uint32_t least = a.asked.faces || extended ? 0 : kFacesOverCoarsest * mrr->faces_min();
-    MethodResult result = describe_resolution(std::move(*mrr), std::max(*a.used.faces, least));
-    const Status measured = measure(result, mesh, source.get(), a.asked.max_deviation, a.last, context);
-    return measured ? Expected<MethodResult>(std::move(result)) : measured.error();
-}
-
 Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
                                     const ExecutionContext& context) {
     const auto start = std::chrono::steady_clock::now();
@@ -106,12 +82,15 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
 
     Expected<SubdividedMesh> subdivided = subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    const auto attempt = [&](double share, bool last) {
-        // A second attempt needs the subdivided mesh again; only a given max_deviation asks for one.
-        SubdividedMesh dense = options.max_deviation ? *subdivided : std::move(*subdivided);
-        return simplify_and_measure(mesh, std::move(dense), {options, used, share, last}, context);
+    const bool extended = used.mode == Mode::kExtended;
+    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces},
+                        extended,
+                        used.max_deviation.value_or(0),
+                        options.max_deviation};
+    const auto faces_of = [&](const MultiresMesh& mrr) {
+        return options.faces || extended ? *used.faces : std::max(*used.faces, kFacesOverCoarsest * mrr.faces_min());
     };
-    Expected<MethodResult> tried = within(options.max_deviation, attempt);
+    Expected<MethodResult> tried = run_policy(mesh, std::move(*subdivided), run, ImprovePolicy{}, faces_of, context);
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
     report_deviation(result, options.max_deviation);

@@ -85,8 +85,10 @@ void guard(SimplifyInput& input, const TriangleMesh& source, double distance) {
 namespace {
 
 void show(MethodResult& result, std::size_t level, const TriangleMesh& mesh, double deviation) {
-    result.faces = result.mrr.faces_at(level);
-    result.quality = measure_quality(mesh);
+    if (result.faces != result.mrr.faces_at(level)) {
+        result.faces = result.mrr.faces_at(level);
+        result.quality = measure_quality(mesh);
+    }
     result.quality.deviation_max = deviation;
 }
 

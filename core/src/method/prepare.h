@@ -36,20 +36,6 @@ void fill_tolerances(double diagonal, Options& options) {
 /// Has the simplifier keep its samples within `distance` of `source`, both ways. O(faces log faces).
 void guard(SimplifyInput& input, const TriangleMesh& source, double distance);
 
-/// `attempt(share, last)` simplifies with samples kept to that share of max_deviation, and measures. What lies between samples
-/// may be further away: where `limit` is given and not kept at the resolution asked for, it is tried again with less, and the
-/// last time finer resolutions count too.
-template <class Attempt>
-[[nodiscard]] Expected<MethodResult> within(std::optional<double> limit, Attempt attempt) {
-    constexpr double kFirstShare = 0.85;
-    constexpr double kLastShare = 0.2;
-    for (double share = kFirstShare;; share /= 2) {
-        const bool last = !limit || share / 2 < kLastShare;
-        Expected<MethodResult> result = attempt(share, last);
-        if (last || !result || result->quality.deviation_max.value_or(0) <= *limit) return result;
-    }
-}
-
 /// Measures how far the result's shown resolution and its source are apart. Where that is more than `limit` and it `may_refine`,
 /// shows a finer resolution that keeps to it, or else the finest. Does nothing without an index of the source. Stage "measure".
 /// \return CANCELLED.

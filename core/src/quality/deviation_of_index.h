@@ -9,7 +9,7 @@ namespace vsplit {
 /// A mesh with its index at hand, to measure many results against one source. Both must outlive the calls.
 struct IndexedMesh {
     const TriangleMesh& mesh;
-    const SurfaceIndex& index;  ///< of that mesh
+    const SurfaceIndex& index;  ///< of that mesh, or of another with the same surface
 };
 
 /// measure_deviation for who has the indices; the same answer.

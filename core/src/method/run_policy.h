@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "method/prepare.h"
+
+namespace vsplit {
+
+/// What a run of either method needs beside its policy.
+struct MethodRun {
+    PrepareOptions prepare;
+    bool extended = false;
+    double max_deviation = 0;       ///< as used; extended mode only
+    std::optional<double> limit{};  ///< max_deviation where it was given: to be kept for certain
+};
+
+/// One attempt of `run_policy`, with samples kept to `share` of max_deviation.
+template <class Policy, class Faces>
+[[nodiscard]] Expected<MethodResult> attempt_policy(const TriangleMesh& source, SubdividedMesh dense, const MethodRun& run,
+                                                    double share, bool last, const Policy& policy, Faces faces_of,
+                                                    const ExecutionContext& context) {
+    SimplifyInput input = prepare(source, std::move(dense), run.prepare);
+    if (run.extended) guard(input, source, share * run.max_deviation);
+    const std::shared_ptr<const SurfaceIndex> index = input.source;
+    Expected<MultiresMesh> mrr = run.extended ? simplify(std::move(input), Extended<Policy>{policy}, context)
+                                              : simplify(std::move(input), policy, context);
+    if (!mrr) return mrr.error();
+    const std::uint32_t faces = faces_of(*mrr);
+    MethodResult result = describe_resolution(std::move(*mrr), faces);
+    const Status measured = measure(result, source, index.get(), run.limit, last, context);
+    return measured ? Expected<MethodResult>(std::move(result)) : measured.error();
+}
+
+/// Simplifies, shows the resolution that `faces_of(mrr)` names, and measures. What lies between samples may be further away than
+/// they: where a limit is given and not kept at that resolution, it is tried again with less, and the last time finer resolutions
+/// count too.
+template <class Policy, class Faces>
+[[nodiscard]] Expected<MethodResult> run_policy(const TriangleMesh& source, SubdividedMesh dense, const MethodRun& run,
+                                                const Policy& policy, Faces faces_of, const ExecutionContext& context) {
+    constexpr double kFirstShare = 0.85;
+    constexpr double kLastShare = 0.2;
+    double share = kFirstShare;
+    for (; run.limit && share / 2 >= kLastShare; share /= 2) {
+        Expected<MethodResult> result = attempt_policy(source, dense, run, share, false, policy, faces_of, context);
+        if (!result || result->quality.deviation_max.value_or(0) <= *run.limit) return result;
+    }
+    return attempt_policy(source, std::move(dense), run, share, true, policy, faces_of, context);
+}
+
+}  // namespace vsplit
