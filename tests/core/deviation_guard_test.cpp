@@ -33,8 +33,8 @@ public:
 
     void edit(std::uint32_t faces_min, int tries) {
         DeviationGuard* guard = guard_ ? &*guard_ : nullptr;
-        EdgeFlipper flipper(p.mesh, p.state, p.log, guard, p.limits());
-        VertexMover mover(p.mesh, p.state, p.log, guard, p.limits());
+        EdgeFlipper flipper(p.mesh, p.state, p.log, {guard, nullptr}, p.limits());
+        VertexMover mover(p.mesh, p.state, p.log, {guard, nullptr}, p.limits());
         for (int n = 0; n < tries && p.mesh.live_faces() > faces_min; ++n) {
             const HalfEdge h = random_.below(p.mesh.half_edge_count());
             if (p.mesh.removed(h)) continue;

@@ -37,7 +37,7 @@ double least_stretch(const Polishing& p) {
     return least;
 }
 
-void flip_all(Polishing& p, const PolishLimits& limits) { EdgeFlipper(p.mesh, p.state, p.log, nullptr, limits).flip_all(); }
+void flip_all(Polishing& p, const PolishLimits& limits) { EdgeFlipper(p.mesh, p.state, p.log, {}, limits).flip_all(); }
 
 /// Edges of the mesh that were not there before.
 std::set<Edge> fresh(const Polishing& p, const std::set<Edge>& before) {
@@ -247,7 +247,7 @@ TEST(EdgeFlipperTest, RespectsValence) {
 
 TEST(EdgeFlipperTest, AroundAVertexItNamesEveryFaceThatChanged) {
     Polishing p(jittered_cube(8, 0.15, 10), 1e-3);
-    EdgeFlipper flipper(p.mesh, p.state, p.log, nullptr, p.limits());
+    EdgeFlipper flipper(p.mesh, p.state, p.log, {}, p.limits());
     std::size_t flipped = 0;
     for (std::uint32_t v = 0; v < p.mesh.vertex_count(); ++v) {
         const std::vector<Triangle> before = p.now().faces;

@@ -132,7 +132,8 @@ TEST_P(Extended, ShapeIsBetterThanTheStrictModes) {
     if (GetParam().improving) {
         EXPECT_GT(extended.quality.stretch_mean, strict.quality.stretch_mean);
     }
-    EXPECT_GT(extended.quality.stretch_min, strict.quality.stretch_min);
+    // Creases that noise made of a scan are kept, which may cost the worst face; strict mode lets them go.
+    EXPECT_LE(extended.quality.faces_below_02, strict.quality.faces_below_02);
     EXPECT_GE(extended.quality.stretch_p01, strict.quality.stretch_p01);
     EXPECT_FALSE(strict.quality.deviation_max.has_value());
 }

@@ -1,6 +1,8 @@
 #include "method/prepare.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "mesh/spatial_order.h"
@@ -56,6 +58,7 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
     input.quadrics = vertex_quadrics(subdivided.mesh, normals, input.creases, input.centre);
     input.mesh = std::move(subdivided.mesh);
     input.normals = std::move(normals.normals);
+    input.crease_cosine = std::cos(options.features.angle * std::numbers::pi / 180);
     input.tolerance = options.tolerance;
     input.faces_min = options.faces_min;
     input.faces = options.faces;

@@ -55,7 +55,7 @@ public:
         if constexpr (Policy::kExtended) {
             if (!keeps_creases(h)) return {};
             evenness_ = evenness(h, valence);
-            // The end of a crease, or where several meet, stays where it is.
+            // Where several creases meet stays where it is.
             if (is_corner(creases_[0])) return attempt(quadric, mesh_.position(i) - centre_) ? valid_ : Evaluation{};
             if (is_corner(creases_[1])) return attempt(quadric, mesh_.position(j) - centre_) ? valid_ : Evaluation{};
         }
@@ -123,7 +123,7 @@ private:
         return t;
     }
 
-    [[nodiscard]] static bool is_corner(int creases) { return creases != 0 && creases != 2; }
+    [[nodiscard]] static bool is_corner(int creases) { return creases > 2; }
 
     /// Creases neither meet nor end where they did not: two vertices of creases join along a crease only, and two corners never,
     /// unless they are within the tolerance of each other.

@@ -100,9 +100,10 @@ bool EdgeFlipper::flip_if_better(HalfEdge h) {
     if (mesh_.is_crease(h)) return false;
     if (std::min(state_.faces[face_of(h)].stretch, state_.faces[face_of(g)].stretch) > kGoodEnough) return false;
     const Quad quad(mesh_, state_, h);
-    if (!may_flip(quad) || !guard_admits(quad, h)) return false;
+    if (!may_flip(quad) || !creases_.try_flip(h, quad.left.normal, quad.right.normal) || !guard_admits(quad, h)) return false;
     log_.record_flip(h);
     mesh_.flip(h);
+    creases_.commit();
     state_.faces[face_of(h)] = quad.left.state();
     state_.faces[face_of(g)] = quad.right.state();
     return true;

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "simplify/collapse_log.h"
-#include "simplify/deviation_guard.h"
+#include "simplify/crease_replacement.h"
+#include "simplify/guards.h"
 #include "simplify/half_edge_mesh.h"
 #include "simplify/local_state.h"
 #include "simplify/polish_limits.h"
@@ -14,9 +15,13 @@ namespace vsplit {
 /// Flips edges where the smaller stretch of the two faces grows and both normals stay; never a crease. Tells the log.
 class EdgeFlipper {
 public:
-    /// `guard` may be null.
-    EdgeFlipper(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, DeviationGuard* guard, const PolishLimits& limits)
-        : mesh_(mesh), state_(state), log_(log), guard_(guard), limits_(limits) {}
+    EdgeFlipper(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits)
+        : mesh_(mesh),
+          state_(state),
+          log_(log),
+          guard_(guards.surface),
+          creases_(mesh, state, guards.creases, limits.crease_cosine),
+          limits_(limits) {}
 
     /// All over the mesh, and again around what was flipped. Ends, since each flip betters the worse of two faces. O(faces).
     void flip_all();
@@ -40,6 +45,7 @@ private:
     LocalState& state_;
     CollapseLog& log_;
     DeviationGuard* const guard_;
+    CreaseReplacement creases_;
     const PolishLimits limits_;
     std::vector<HalfEdge> open_;  // edges to look at, last first
     std::vector<std::uint32_t> changed_;

@@ -67,7 +67,11 @@ public:
 
     /// Whether the edge of h is a crease. Edges that a collapse joins are one when either was; a flipped edge keeps its mark.
     [[nodiscard]] bool is_crease(HalfEdge h) const { return creases_[h] != 0; }
-    void mark_crease(HalfEdge h) { creases_[h] = creases_[twin(h)] = 1; }
+    void mark_crease(HalfEdge h) { creases_[h] = creases_[twin(h)] = kCrease; }
+
+    /// A crease that counts as one whatever the angle between its faces.
+    [[nodiscard]] bool is_kept_flat(HalfEdge h) const { return (creases_[h] & kKeptFlat) != 0; }
+    void mark_kept_flat(HalfEdge h) { creases_[h] = creases_[twin(h)] = kCrease | kKeptFlat; }
 
 private:
     void pair(HalfEdge h, HalfEdge g) {
@@ -87,7 +91,8 @@ private:
         HalfEdge twin = kNone;  // kNone in removed faces
     };
     std::vector<Link> half_edges_;
-    std::vector<std::uint8_t> creases_;  // 1 for both half-edges of a crease
+    static constexpr std::uint8_t kCrease = 1, kKeptFlat = 2;
+    std::vector<std::uint8_t> creases_;  // of both half-edges of a crease; else 0
     std::vector<HalfEdge> outgoing_;
     std::vector<std::uint32_t> valence_;
     std::vector<Vec3> positions_;

@@ -85,11 +85,10 @@ private:
 };
 
 /// A sum over many planes bounds their mean distance ever closer, until nothing on a curved surface may move. This bounds the
-/// mean of the squares instead, at a quarter of `square` (a quadric's trace is the sum of its weights), and never asks for less
-/// than the strict limit, `square`.
+/// mean of the squares instead (a quadric's trace is the sum of its weights), and never asks for less than the strict limit,
+/// `square`.
 [[nodiscard]] inline double mean_error_limit(const Quadric& quadric, double square) {
-    constexpr double kMeanShare = 0.25;
-    return square * std::max(1.0, kMeanShare * quadric.trace());
+    return square * std::max(1.0, quadric.trace());
 }
 
 /// The extended mode of either method (docs/method.md): collapses keep creases apart and valences even, and the simplifier flips

@@ -10,9 +10,8 @@ namespace vsplit {
 /// so the same for any number of them.
 class Polisher {
 public:
-    /// `guard` may be null.
-    Polisher(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, DeviationGuard* guard, const PolishLimits& limits)
-        : mesh_(mesh), flipper_(mesh, state, log, guard, limits), mover_(mesh, state, log, guard, limits) {}
+    Polisher(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits)
+        : mesh_(mesh), flipper_(mesh, state, log, guards, limits), mover_(mesh, state, log, guards, limits) {}
 
     /// `relaxations` rounds for the mean shape, then `lifts` for the worst faces. Stops early when cancelled. O(faces * rounds).
     void polish(int relaxations, int lifts, const ExecutionContext& context);

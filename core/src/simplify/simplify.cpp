@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "simplify/collapse_log.h"
@@ -56,7 +57,9 @@ public:
           faces_start_(mesh_.live_faces()),
           evaluator_(mesh_, state_, policy_, input_),
           guard_(make_guard()),
-          polisher_(mesh_, state_, log_, guard_.get(), limits_of(policy_, input_)) {
+          crease_guard_(make_crease_guard()),
+          creases_(mesh_, state_, crease_guard_.get(), input_.crease_cosine),
+          polisher_(mesh_, state_, log_, {guard_.get(), crease_guard_.get()}, limits_of(policy_, input_)) {
         mark_creases();
         input_.mesh = {};
         input_.normals = {};
@@ -73,7 +76,7 @@ public:
 
 private:
     [[nodiscard]] static PolishLimits limits_of(const Policy& policy, const SimplifyInput& input) {
-        PolishLimits limits{.centre = input.centre, .tolerance = input.tolerance};
+        PolishLimits limits{.centre = input.centre, .tolerance = input.tolerance, .crease_cosine = input.crease_cosine};
         if constexpr (requires { policy.max_valence; }) {
             limits.max_size = policy.max_size;
             limits.max_valence = policy.max_valence;
@@ -87,12 +90,22 @@ private:
                                                 kPointsAFace * std::min(input_.faces, mesh_.live_faces()));
     }
 
+    [[nodiscard]] std::unique_ptr<CreaseGuard> make_crease_guard() const {
+        if (!input_.source || input_.creases.empty()) return nullptr;
+        return std::make_unique<CreaseGuard>(mesh_, input_.creases, input_.max_deviation);
+    }
+
     void mark_creases() {
         for (const SharpEdge& crease : input_.creases) {
             mesh_.for_each_outgoing(crease.a, [&](HalfEdge h) {
-                if (mesh_.target(h) == crease.b) mesh_.mark_crease(h);
+                if (mesh_.target(h) == crease.b) mark_crease(h);
             });
         }
+    }
+
+    void mark_crease(HalfEdge h) {
+        const float cosine = state_.faces[face_of(h)].normal.dot(state_.faces[face_of(mesh_.twin(h))].normal);
+        cosine < input_.crease_cosine ? mesh_.mark_crease(h) : mesh_.mark_kept_flat(h);
     }
 
     /// Whether a collapse leaves no fewer than `faces`.
@@ -185,12 +198,19 @@ private:
         return Done{};
     }
 
+    /// Whether the guards let the edge of `star` collapse to `position`. \pre the evaluator's fan is that of the collapse.
+    [[nodiscard]] bool guards_admit(const EdgeStar& star, const Vec3& position) {
+        const Fan& fan = evaluator_.fan();
+        if (!creases_.try_collapse(star, fan, position)) return false;
+        return !guard_ || replacement_.try_on(*guard_, fan, position, {face_of(star.ij), face_of(star.ji)});
+    }
+
     void collapse(HalfEdge edge) {
         const EdgeStar star = mesh_.star(edge);
         // The fan belongs to the edge evaluated last; this one's is made again, for its place and its faces.
         const Evaluation evaluation = evaluator_.evaluate(edge);
-        if (guard_ &&
-            !replacement_.try_on(*guard_, evaluator_.fan(), evaluation.position, {face_of(star.ij), face_of(star.ji)})) {
+        assert(evaluation.verdict == Evaluation::Verdict::kValid);
+        if (!guards_admit(star, evaluation.position)) {
             ++refusals_[edge];
             return drop(edge);  // until its neighbourhood changes
         }
@@ -199,6 +219,7 @@ private:
         const std::uint32_t kept = mesh_.origin(star.ij);
         state_.quadrics[kept] += state_.quadrics[mesh_.origin(star.ji)];
         mesh_.collapse(star, evaluation.position);
+        creases_.commit();
         update_faces();
         if constexpr (Policy::kExtended) flip_around(kept);
         requeue_around(kept);
@@ -283,7 +304,9 @@ private:
     bool evaluated_ = false;  // all edges, once
     EdgeEvaluator<Policy> evaluator_;
     FanReplacement replacement_;
-    std::unique_ptr<DeviationGuard> guard_;  // null where there is no bound
+    std::unique_ptr<DeviationGuard> guard_;      // null where there is no bound
+    std::unique_ptr<CreaseGuard> crease_guard_;  // null there too, or without creases
+    CreaseReplacement creases_;
     Polisher polisher_;
 };
 

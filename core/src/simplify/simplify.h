@@ -21,6 +21,7 @@ struct SimplifyInput {
     std::vector<Quadric> quadrics;  ///< one a vertex, of points relative to `centre`
     Vec3 centre = Vec3::Zero();
     std::vector<SharpEdge> creases;              ///< of `mesh`; the extended mode keeps them apart
+    double crease_cosine = -1;                   ///< of the angle from which on an edge is one
     std::shared_ptr<const SurfaceIndex> source;  ///< what max_deviation is measured from; null for no bound
     double max_deviation = 0;                    ///< length; samples of both surfaces stay within it of the other
     double tolerance = 0;                        ///< length; tau_TL is its square

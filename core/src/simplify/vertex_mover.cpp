@@ -63,10 +63,12 @@ bool VertexMover::admits(const Vec3& place) {
 }
 
 void VertexMover::put(std::uint32_t v, const Vec3& place) {
+    static_cast<void>(star_.shape_at(place + limits_.centre));
+    if (!creases_.try_move(v, star_, place + limits_.centre)) return;
     if (guard_ != nullptr && !replacement_.try_on(*guard_, star_, place + limits_.centre, {})) return;
     log_.record_move(v, mesh_.position(v));
     mesh_.move(v, place + limits_.centre);
-    static_cast<void>(star_.shape_at(mesh_.position(v)));
+    creases_.commit();
     for (std::size_t t = 0; t < star_.size(); ++t) {
         state_.faces[star_.face(t)] = {star_.normal(t), star_.stretch(t), star_.face_size(t)};
     }

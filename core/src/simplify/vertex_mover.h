@@ -3,8 +3,10 @@
 #include <cstdint>
 
 #include "simplify/collapse_log.h"
+#include "simplify/crease_replacement.h"
 #include "simplify/fan.h"
 #include "simplify/fan_replacement.h"
+#include "simplify/guards.h"
 #include "simplify/half_edge_mesh.h"
 #include "simplify/local_state.h"
 #include "simplify/polish_limits.h"
@@ -15,9 +17,13 @@ namespace vsplit {
 /// across the surface, so one on a crease moves along it and a corner not at all. Tells the log.
 class VertexMover {
 public:
-    /// `guard` may be null.
-    VertexMover(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, DeviationGuard* guard, const PolishLimits& limits)
-        : mesh_(mesh), state_(state), log_(log), guard_(guard), limits_(limits) {}
+    VertexMover(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits)
+        : mesh_(mesh),
+          state_(state),
+          log_(log),
+          guard_(guards.surface),
+          creases_(mesh, state, guards.creases, limits.crease_cosine),
+          limits_(limits) {}
 
     /// Towards where the faces around v are nearest to equilateral, in the mean of squares. O(valence).
     void relax(std::uint32_t v);
@@ -35,6 +41,7 @@ private:
     LocalState& state_;
     CollapseLog& log_;
     DeviationGuard* const guard_;
+    CreaseReplacement creases_;
     const PolishLimits limits_;
     FanReplacement replacement_;
     // Of the vertex at hand:

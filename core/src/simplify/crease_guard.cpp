@@ -1,0 +1,69 @@
+#include "simplify/crease_guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vsplit {
+namespace {
+
+/// Points of one edge of the dense mesh.
+constexpr double kMostPointsAnEdge = 8;
+
+double square_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 along = b - a;
+    const double length_square = along.squaredNorm();
+    const double share = length_square > 0 ? std::clamp((p - a).dot(along) / length_square, 0.0, 1.0) : 0;
+    return (p - (a + share * along)).squaredNorm();
+}
+
+}  // namespace
+
+CreaseGuard::CreaseGuard(const HalfEdgeMesh& mesh, const std::vector<SharpEdge>& creases, double limit)
+    : limit_(limit), first_(mesh.half_edge_count(), kNone) {
+    for (const SharpEdge& crease : creases) {
+        mesh.for_each_outgoing(crease.a, [&](HalfEdge h) {
+            if (mesh.target(h) == crease.b) add(mesh.edge_of(h), mesh.position(crease.a), mesh.position(crease.b));
+        });
+    }
+}
+
+void CreaseGuard::add(HalfEdge edge, const Vec3& a, const Vec3& b) {
+    const double count = std::clamp(std::ceil((b - a).norm() / limit_), 1.0, kMostPointsAnEdge);
+    for (double n = 0.5; n < count; ++n) {
+        points_.push_back(a + (b - a) * (n / count));
+        next_.push_back(kNone);
+        put({static_cast<std::uint32_t>(points_.size() - 1), edge});
+    }
+}
+
+bool CreaseGuard::place(std::uint32_t point, std::span<const NewCrease> creases) {
+    double least = std::numeric_limits<double>::infinity();
+    HalfEdge edge = kNone;
+    for (const NewCrease& crease : creases) {
+        const double square = square_distance(points_[point], crease.a, crease.b);
+        if (!(square < least)) continue;
+        least = square;
+        edge = crease.edge;
+    }
+    if (!(least <= limit_ * limit_)) return false;
+    places_.push_back({point, edge});
+    return true;
+}
+
+bool CreaseGuard::admits(std::span<const HalfEdge> old_edges, std::span<const NewCrease> creases) {
+    places_.clear();
+    for (const HalfEdge edge : old_edges) {
+        for (std::uint32_t point = first_[edge]; point != kNone; point = next_[point]) {
+            if (!place(point, creases)) return false;
+        }
+    }
+    return true;
+}
+
+void CreaseGuard::commit(std::span<const HalfEdge> old_edges) {
+    for (const HalfEdge edge : old_edges) first_[edge] = kNone;
+    for (const Place& at : places_) put(at);
+}
+
+}  // namespace vsplit

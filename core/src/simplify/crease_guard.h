@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "simplify/half_edge_mesh.h"
+#include "vsplit/features/sharp_edges.h"
+
+namespace vsplit {
+
+/// Keeps the source's creases within a distance of the mesh's, while edges are replaced by others.
+///
+/// Points along the source's creases are kept at a crease of the mesh that is near: where that goes, or is sharp no longer, they
+/// go over to one of those about, or else it may not go. So thin steps and grooves do not go flat, however little the surface
+/// would move. Samples, as with DeviationGuard.
+class CreaseGuard {
+public:
+    /// A crease as it would be.
+    struct NewCrease {
+        HalfEdge edge = 0;  ///< the number it would go by
+        Vec3 a = Vec3::Zero();
+        Vec3 b = Vec3::Zero();
+    };
+
+    /// \pre `creases` are edges of `mesh`, marked there.
+    CreaseGuard(const HalfEdgeMesh& mesh, const std::vector<SharpEdge>& creases, double limit);
+
+    /// Whether `creases` may stand where those numbered `old_edges` are. O(creases * points of the old).
+    [[nodiscard]] bool admits(std::span<const HalfEdge> old_edges, std::span<const NewCrease> creases);
+
+    /// Has the points go over as the last `admits` found, which was of `old_edges`. \pre it said yes.
+    void commit(std::span<const HalfEdge> old_edges);
+
+private:
+    struct Place {
+        std::uint32_t point = 0;
+        HalfEdge edge = 0;
+    };
+
+    void add(HalfEdge edge, const Vec3& a, const Vec3& b);
+    [[nodiscard]] bool place(std::uint32_t point, std::span<const NewCrease> creases);
+    void put(Place at) {
+        next_[at.point] = first_[at.edge];
+        first_[at.edge] = at.point;
+    }
+
+    const double limit_;
+    std::vector<Vec3> points_;
+    std::vector<std::uint32_t> next_;   // of a point: the next one at its edge, or kNone
+    std::vector<std::uint32_t> first_;  // of an edge, by its number: its first point, or kNone
+    std::vector<Place> places_;         // where the points of old edges would go
+};
+
+}  // namespace vsplit

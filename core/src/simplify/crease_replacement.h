@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "simplify/crease_guard.h"
+#include "simplify/fan.h"
+#include "simplify/half_edge_mesh.h"
+#include "simplify/local_state.h"
+
+namespace vsplit {
+
+/// What a collapse, a move or a flip makes of the creases about, for a CreaseGuard; owns the scratch memory. A crease
+/// counts while the normals of its faces differ by more than an angle, or where it is one without that; see HalfEdgeMesh.
+class CreaseReplacement {
+public:
+    /// `cosine`: of the angle.
+    CreaseReplacement(const HalfEdgeMesh& mesh, const LocalState& state, CreaseGuard* guard, double cosine)
+        : mesh_(mesh), state_(state), guard_(guard), cosine_(static_cast<float>(cosine)) {}
+
+    /// Whether the guard lets the edge of `star` collapse. \pre `fan` is that of the collapse, shaped for `apex`.
+    [[nodiscard]] bool try_collapse(const EdgeStar& star, const Fan& fan, const Vec3& apex);
+
+    /// Whether the guard lets v move. \pre `fan` is the faces around v from its outgoing half-edge on, shaped for `apex`.
+    [[nodiscard]] bool try_move(std::uint32_t v, const Fan& fan, const Vec3& apex);
+
+    /// Whether the guard lets the edge of h turn into faces with these normals: that of h and that of its twin.
+    [[nodiscard]] bool try_flip(HalfEdge h, const Vec3& of_h, const Vec3& of_twin);
+
+    /// What the last try found holds from now on. \pre it said yes.
+    void commit();
+
+private:
+    /// Of the normals on either side of an edge.
+    struct Dots {
+        float before = 0;
+        float after = 0;
+    };
+
+    void start();
+    void take(HalfEdge h);
+    [[nodiscard]] float dot_at(HalfEdge h) const;
+    void offer(HalfEdge edge, bool kept_flat, Dots dots, const Vec3& a, const Vec3& b);
+    void add_spoke(HalfEdge spoke, const Fan& fan, std::size_t t, const Vec3& apex);
+    void add_wing(HalfEdge one, HalfEdge other, HalfEdge edge, const Fan& fan, std::size_t t, const Vec3& apex);
+    void add_side(HalfEdge side, const Fan& fan, std::size_t t);
+    [[nodiscard]] bool done() const { return old_.empty() || (!makes_blade_ && guard_->admits(old_, new_)); }
+
+    const HalfEdgeMesh& mesh_;
+    const LocalState& state_;
+    CreaseGuard* const guard_;
+    const float cosine_;
+    std::vector<HalfEdge> old_;
+    std::vector<CreaseGuard::NewCrease> new_;
+    bool makes_blade_ = false;
+};
+
+}  // namespace vsplit
