@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -26,18 +27,25 @@ ControlPolicy policy_of(const ControlOptions& used, double diagonal) {
 }
 
 /// One-to-four, and midpoints in what is still over max_size: no collapse makes a face smaller.
-Expected<SubdividedMesh> subdivide(const TriangleMesh& mesh, const ControlOptions& used, std::uint32_t face_limit,
-                                   const ExecutionContext& context) {
-    Expected<SubdividedMesh> quartered = subdivide_one_to_four(mesh, *used.subdivisions, face_limit, context);
-    if (!quartered || !used.max_size) return quartered;
-    Expected<SubdividedMesh> fitting = subdivide_to_size(quartered->mesh, *used.max_size, face_limit, context);
-    if (!fitting) {
-        Error error = fitting.error();
-        if (error.field == "subdivision_size") error.field = "max_size";
-        return error;
-    }
-    for (std::uint32_t& parent : fitting->parent) parent = quartered->parent[parent];
-    return fitting;
+Expected<SubdividedMesh> subdivide(const TriangleMesh& mesh, const std::optional<SizePlan>& sizes, const ControlOptions& used,
+                                   std::uint32_t face_limit, const ExecutionContext& context) {
+    const auto quartered = [&](const TriangleMesh& m) {
+        return subdivide_one_to_four(m, *used.subdivisions, face_limit, context);
+    };
+    Expected<SubdividedMesh> fine = sizes ? subdivide_to_sizes(mesh, sizes->field, face_limit, context) : quartered(mesh);
+    if (fine && sizes) fine = refined(*std::move(fine), quartered);
+    if (!fine || !used.max_size) return fine;
+    fine = refined(*std::move(fine),
+                   [&](const TriangleMesh& m) { return subdivide_to_size(m, *used.max_size, face_limit, context); });
+    if (fine) return fine;
+    Error error = fine.error();
+    if (error.field == "subdivision_size") error.field = "max_size";
+    return error;
+}
+
+/// The mean edge of the faces asked for.
+double usual_size(const TriangleMesh& mesh, const ControlOptions& used) {
+    return std::sqrt(surface_area(mesh) / (kEquilateralArea * *used.faces));
 }
 
 /// Collects what breaks one bound.
@@ -137,10 +145,12 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
     const ControlOptions used = default_options(mesh, options);
 
-    Expected<SubdividedMesh> subdivided = subdivide(mesh, used, limits.max_faces, context);
+    const Expected<std::optional<SizePlan>> sizes = plan_sizes(mesh, used.sizing, feature_options(used), usual_size(mesh, used));
+    if (!sizes) return sizes.error();
+    Expected<SubdividedMesh> subdivided = subdivide(mesh, *sizes, used, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
     const bool extended = used.mode == Mode::kExtended;
-    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces},
+    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces, *sizes ? &**sizes : nullptr},
                         extended,
                         used.max_deviation.value_or(0),
                         options.max_deviation};
@@ -153,6 +163,7 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     result.violations = find_violations(mesh_at(result.mrr, result.mrr.level_for(result.faces)), used);
     for (Violation& violation : result.violations)
         violation.reason = reason_for(violation, result.faces == result.mrr.faces_min());
+    if (*sizes) report_sizes(result, mesh, **sizes);
     report_deviation(result, options.max_deviation);
     result.elapsed = std::chrono::steady_clock::now() - start;
     return result;

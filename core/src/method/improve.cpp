@@ -8,6 +8,7 @@
 #include "base/thread_limit.h"
 #include "method/run_policy.h"
 #include "vsplit/mesh/inspect.h"
+#include "vsplit/quality/stretch.h"
 
 namespace vsplit {
 namespace {
@@ -26,7 +27,6 @@ constexpr std::uint64_t kDefaultFaceBudget = 1'000'000;
 /// Strict mode: where nothing more can be collapsed within the tolerance shape has suffered; with twice the faces it is near its
 /// best.
 constexpr std::uint32_t kFacesOverCoarsest = 2;
-constexpr double kEquilateralArea = 0.4330127018922193;  // of edge 1
 
 double edge_of_faces(const TriangleMesh& mesh, std::uint32_t faces) {
     return std::sqrt(surface_area(mesh) / (kEquilateralArea * faces));
@@ -46,11 +46,33 @@ double default_subdivision_size(const TriangleMesh& mesh, const ImproveOptions& 
     return size > 0 ? affordable_size(mesh, size, diagonal, host_limit) : diagonal;
 }
 
+std::uint32_t face_count(double faces) { return static_cast<std::uint32_t>(std::clamp(faces, 4.0, 4e9)); }
+
 std::uint32_t default_faces(const TriangleMesh& mesh, const ImproveOptions& used) {
     const DefaultSizes& sizes = used.mode == Mode::kStrict ? kStrictSizes : kExtendedSizes;
     const double edge = sizes.mean_edge_over_size * *used.subdivision_size;
     const double faces = surface_area(mesh) / (kEquilateralArea * edge * edge);
-    return static_cast<std::uint32_t>(std::clamp(faces, 4.0, 4e9));
+    return face_count(faces);
+}
+
+/// Sizes follow what is asked for, or curvature where neither sizes nor a number of faces are.
+Expected<std::optional<SizePlan>> plan_for(const TriangleMesh& mesh, const ImproveOptions& asked, const ImproveOptions& used,
+                                           const MethodLimits& limits) {
+    const bool free = used.mode == Mode::kExtended && !asked.sizing && !asked.faces && !asked.subdivision_size;
+    if (!free) return plan_sizes(mesh, sizing_options(used), feature_options(used), *used.subdivision_size);
+    const auto budget = static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.max_faces, kDefaultFaceBudget));
+    Expected<SizePlan> plan = plan_by_curvature(mesh, feature_options(used), *used.tolerance, *used.subdivision_size, budget);
+    if (!plan) return plan.error();
+    return std::optional<SizePlan>(*std::move(plan));
+}
+
+/// To the sizes that are planned where they are smaller, and to `size`.
+Expected<SubdividedMesh> subdivide(const TriangleMesh& mesh, const std::optional<SizePlan>& sizes, double size,
+                                   std::uint32_t face_limit, const ExecutionContext& context) {
+    if (!sizes) return subdivide_to_size(mesh, size, face_limit, context);
+    Expected<SubdividedMesh> sized = subdivide_to_sizes(mesh, sizes->field, face_limit, context);
+    if (!sized) return sized;
+    return refined(*std::move(sized), [&](const TriangleMesh& m) { return subdivide_to_size(m, size, face_limit, context); });
 }
 
 }  // namespace
@@ -80,10 +102,13 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
     ImproveOptions used = default_options(mesh, options, limits);
 
-    Expected<SubdividedMesh> subdivided = subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
+    const Expected<std::optional<SizePlan>> sizes = plan_for(mesh, options, used, limits);
+    if (!sizes) return sizes.error();
+    Expected<SubdividedMesh> subdivided = subdivide(mesh, *sizes, *used.subdivision_size, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
+    if (*sizes && !options.faces) used.faces = std::max(face_count(wanted_faces(*subdivided, mesh, **sizes)), *used.faces_min);
     const bool extended = used.mode == Mode::kExtended;
-    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces},
+    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces, *sizes ? &**sizes : nullptr},
                         extended,
                         used.max_deviation.value_or(0),
                         options.max_deviation};
@@ -93,6 +118,7 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     Expected<MethodResult> tried = run_policy(mesh, std::move(*subdivided), run, ImprovePolicy{}, faces_of, context);
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
+    if (options.sizing) report_sizes(result, mesh, **sizes);
     report_deviation(result, options.max_deviation);
     if (!options.faces) used.faces = result.faces;
     result.options = used;

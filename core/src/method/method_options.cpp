@@ -43,17 +43,12 @@ Status check_faces(const std::optional<std::uint32_t>& faces, const std::optiona
     return Done{};
 }
 
-/// Contents first, so that what is wrong with them is not found out one version later.
-Status check_sizing_given(const std::optional<SizingOptions>& sizing, const std::optional<double>& max_size) {
-    if (!sizing) return Done{};
-    if (Status s = check_sizing(*sizing, max_size); !s) return s;
-    return Error{Cause::kUnsupported, "sizing comes with a later version; leave it out", "sizing"};
-}
-
 /// What both methods share.
 template <class Options>
 Status check_common(const Options& options, const std::optional<double>& max_size) {
-    if (Status s = check_sizing_given(options.sizing, max_size); !s) return s;
+    if (options.sizing) {
+        if (Status s = check_sizing(*options.sizing, max_size); !s) return s;
+    }
     if (options.max_deviation && options.mode == Mode::kStrict) {
         return Error{Cause::kUnsupported,
                      "max_deviation comes with the extended mode; in mode STRICT leave it out and bound the quadric error with "

@@ -56,6 +56,11 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
     input.centre = (box.min + box.max) / 2;
     input.creases = creases_on(subdivided, source, find_creases(source, source_normals, options.features));
     input.quadrics = vertex_quadrics(subdivided.mesh, normals, input.creases, input.centre);
+    if (options.sizes != nullptr) {
+        input.sizes = allowed_sizes(subdivided, source, *options.sizes);
+        input.usual_size = options.sizes->usual;
+        input.sizes_bind = options.sizes->binding;
+    }
     input.mesh = std::move(subdivided.mesh);
     input.normals = std::move(normals.normals);
     input.crease_cosine = std::cos(options.features.angle * std::numbers::pi / 180);
@@ -129,6 +134,12 @@ void report_deviation(MethodResult& result, std::optional<double> limit) {
     violation.count = 1;
     violation.reason = "no resolution keeps to it; a larger length is met, or a smaller subdivision size meets this one";
     result.violations.push_back(std::move(violation));
+}
+
+void report_sizes(MethodResult& result, const TriangleMesh& source, const SizePlan& plan) {
+    const TriangleMesh shown = mesh_at(result.mrr, result.mrr.level_for(result.faces));
+    if (std::optional<Violation> oversized = find_oversized(shown, source, plan))
+        result.violations.push_back(*std::move(oversized));
 }
 
 MethodResult describe_resolution(MultiresMesh mrr, std::uint32_t faces) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "method/size_plan.h"
 #include "simplify/simplify.h"
 #include "spatial/surface_index.h"
 #include "vsplit/features/creases.h"
@@ -14,6 +15,7 @@ struct PrepareOptions {
     double tolerance = 0;
     std::uint32_t faces_min = 0;
     std::uint32_t faces = 0;
+    const SizePlan* sizes = nullptr;  ///< null: the same size everywhere
 };
 
 /// Normals, creases and quadrics of a subdivided mesh. Normals are those of the source's faces: subdivision does not change the
@@ -44,6 +46,19 @@ void guard(SimplifyInput& input, const TriangleMesh& source, double distance);
 
 /// A violation where the shown resolution was measured to be further than `limit` from the source.
 void report_deviation(MethodResult& result, std::optional<double> limit);
+
+/// A violation where edges of the shown resolution are longer than `plan` allows.
+void report_sizes(MethodResult& result, const TriangleMesh& source, const SizePlan& plan);
+
+/// A subdivision, subdivided again by `next`.
+template <class Next>
+[[nodiscard]] Expected<SubdividedMesh> refined(SubdividedMesh fine, Next next) {
+    Expected<SubdividedMesh> finer = next(fine.mesh);
+    if (finer) {
+        for (std::uint32_t& parent : finer->parent) parent = fine.parent[parent];
+    }
+    return finer;
+}
 
 /// The resolution of `mrr` nearest to `faces`, and its figures.
 [[nodiscard]] MethodResult describe_resolution(MultiresMesh mrr, std::uint32_t faces);

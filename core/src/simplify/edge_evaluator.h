@@ -50,6 +50,7 @@ public:
         const std::uint32_t valence = mesh_.valence(i) + mesh_.valence(j) - 4;
         if (valence < 3 || valence > kValenceCeiling || !policy_.admits_valence(valence)) return {};
         if (!gather(h) || !policy_.eligible(before_)) return {};
+        ends_ = {i, j};
         const Quadric quadric = state_.quadrics[i] + state_.quadrics[j];
         error_limit_ = policy_.error_limit(quadric, tolerance_square_);
         if constexpr (Policy::kExtended) {
@@ -83,7 +84,17 @@ private:
         if (!is_valid_position(position)) return false;  // rounding may step over the limit of coordinates
         const Fan::Shape shape = fan_.shape_at(position);
         if (shape.folds || !policy_.admits(before_, shape)) return false;
+        if (state_.sizes.binding() && !sizes_admit(position)) return false;
         valid_ = {Evaluation::Verdict::kValid, evenness_ * policy_.factor(before_) * shape_quality(shape, fan_.size()), position};
+        return true;
+    }
+
+    /// Whether no spoke would be longer than its ends allow.
+    [[nodiscard]] bool sizes_admit(const Vec3& position) const {
+        const double allowed = state_.sizes.between(mesh_, ends_[0], ends_[1], position);
+        for (std::size_t t = 0; t < fan_.size(); ++t) {
+            if (!VertexSizes::fits(fan_.spoke(t), allowed, state_.sizes.allowed(fan_.vertex(t)))) return false;
+        }
         return true;
     }
 
@@ -169,6 +180,7 @@ private:
     Fan fan_;
     Before before_;
     Evaluation valid_;
+    std::array<std::uint32_t, 2> ends_{};
     double error_limit_ = 0;  // of the edge at hand
     double evenness_ = 1;
     std::array<int, 2> creases_{};  // edges at either end that are creases; extended mode only

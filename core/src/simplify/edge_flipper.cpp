@@ -30,7 +30,7 @@ struct NewFace {
         normal = twice_area > 0 ? Vec3(cross / twice_area) : cross;
     }
 
-    [[nodiscard]] FaceState state() const { return {normal.cast<float>(), stretch, size}; }
+    [[nodiscard]] FaceState state(double relative_size) const { return {normal.cast<float>(), stretch, relative_size}; }
 };
 
 }  // namespace
@@ -82,7 +82,8 @@ bool EdgeFlipper::has_edge(std::uint32_t from, std::uint32_t to) const {
 bool EdgeFlipper::may_flip(const Quad& quad) const {
     if (mesh_.valence(quad.a) <= 3 || mesh_.valence(quad.b) <= 3) return false;
     if (std::max(mesh_.valence(quad.c), mesh_.valence(quad.d)) >= limits_.max_valence) return false;
-    if (!(quad.gain() > kLeastGain) || (quad.pd - quad.pc).norm() > limits_.max_size) return false;
+    const double length = (quad.pd - quad.pc).norm();
+    if (!(quad.gain() > kLeastGain) || length > limits_.max_size || !state_.sizes.admits(length, quad.c, quad.d)) return false;
     return quad.normals_stay() && quad.moves_surface_within(limits_.tolerance) && !has_edge(quad.c, quad.d);
 }
 
@@ -104,8 +105,8 @@ bool EdgeFlipper::flip_if_better(HalfEdge h) {
     log_.record_flip(h);
     mesh_.flip(h);
     creases_.commit();
-    state_.faces[face_of(h)] = quad.left.state();
-    state_.faces[face_of(g)] = quad.right.state();
+    state_.faces[face_of(h)] = quad.left.state(state_.sizes.relative(quad.left.size, quad.d, quad.c, quad.a));
+    state_.faces[face_of(g)] = quad.right.state(state_.sizes.relative(quad.right.size, quad.c, quad.d, quad.b));
     return true;
 }
 

@@ -48,6 +48,8 @@ public:
     /// Of face t, by the last shape_at.
     [[nodiscard]] double stretch(std::size_t t) const { return stretch_[t]; }
     [[nodiscard]] double face_size(std::size_t t) const { return face_size_[t]; }
+    /// From the vertex to ring vertex t, by the last shape_at.
+    [[nodiscard]] double spoke(std::size_t t) const { return spoke_length_[t]; }
     /// \pre the face did not fold.
     [[nodiscard]] Eigen::Vector3f normal(std::size_t t) const;
     /// Where ring vertex t stands; t = size() is the first again.

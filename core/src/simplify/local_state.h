@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "simplify/simplify.h"
+#include "simplify/vertex_sizes.h"
 
 namespace vsplit {
 
@@ -10,13 +11,14 @@ namespace vsplit {
 struct alignas(32) FaceState {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // only to be compared with another: single precision is plenty
     double stretch = 0;
-    double size = 0;
+    double size = 0;  // against what is wanted, where sizes are given
 };
 
 /// Everything the simplifier knows of the mesh beside its connectivity.
 struct LocalState {
     std::vector<FaceState> faces;
     std::vector<Quadric> quadrics;
+    VertexSizes sizes;
 };
 
 /// The state before the first collapse. O(faces).

@@ -65,6 +65,7 @@ public:
         input_.normals = {};
         input_.quadrics = {};
         input_.creases = {};
+        input_.sizes = {};
     }
 
     [[nodiscard]] Expected<MultiresMesh> run() {
@@ -217,10 +218,12 @@ private:
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
         log_.record(mesh_, star);
         const std::uint32_t kept = mesh_.origin(star.ij);
-        state_.quadrics[kept] += state_.quadrics[mesh_.origin(star.ji)];
+        const std::uint32_t removed = mesh_.origin(star.ji);
+        state_.quadrics[kept] += state_.quadrics[removed];
+        if (state_.sizes.given()) state_.sizes.put(kept, state_.sizes.between(mesh_, kept, removed, evaluation.position));
         mesh_.collapse(star, evaluation.position);
         creases_.commit();
-        update_faces();
+        update_faces(kept);
         if constexpr (Policy::kExtended) flip_around(kept);
         requeue_around(kept);
     }
@@ -246,12 +249,14 @@ private:
         out_of_reach_[edge] = 0;
     }
 
-    void update_faces() {
+    void update_faces(std::uint32_t kept) {
         const Fan& fan = evaluator_.fan();
         ring_.clear();
         for (std::size_t t = 0; t < fan.size(); ++t) {
             ring_.push_back(fan.vertex(t));
-            state_.faces[fan.face(t)] = {fan.normal(t), fan.stretch(t), fan.face_size(t)};
+            const std::uint32_t after = fan.vertex(t + 1 < fan.size() ? t + 1 : 0);
+            state_.faces[fan.face(t)] = {fan.normal(t), fan.stretch(t),
+                                         state_.sizes.relative(fan.face_size(t), kept, fan.vertex(t), after)};
         }
     }
 

@@ -24,6 +24,9 @@ struct SimplifyInput {
     double crease_cosine = -1;                   ///< of the angle from which on an edge is one
     std::shared_ptr<const SurfaceIndex> source;  ///< what max_deviation is measured from; null for no bound
     double max_deviation = 0;                    ///< length; samples of both surfaces stay within it of the other
+    std::vector<double> sizes;                   ///< allowed, one a vertex, or none given; see VertexSizes
+    double usual_size = 0;                       ///< wanted where more is allowed
+    bool sizes_bind = false;                     ///< no longer edges than `sizes` allow
     double tolerance = 0;                        ///< length; tau_TL is its square
     std::uint32_t faces_min = 4;                 ///< stop here at the latest
     std::uint32_t faces = 4;                     ///< the resolution that is asked for: the extended mode polishes it longest

@@ -31,6 +31,7 @@ constexpr std::array<std::pair<double, double>, 8> kPattern{{{1, 0},
 
 bool VertexMover::gather_star(std::uint32_t v) {
     if (mesh_.valence(v) > Fan::kCapacity) return false;
+    vertex_ = v;
     std::size_t t = 0;
     mesh_.for_each_outgoing(v, [&](HalfEdge h) {
         const std::uint32_t r = mesh_.target(h);
@@ -59,7 +60,19 @@ Vec3 VertexMover::ideal() const {
 bool VertexMover::admits(const Vec3& place) {
     if (!(quadric_.error(place) <= error_limit_) || !is_valid_position(place + limits_.centre)) return false;
     shape_ = star_.shape_at(place + limits_.centre);
-    return !shape_.folds && shape_.size_max <= size_limit_;
+    return !shape_.folds && shape_.size_max <= size_limit_ && sizes_admit(place + limits_.centre);
+}
+
+/// Whether no edge gets longer than its ends allow, or stays so.
+bool VertexMover::sizes_admit(const Vec3& position) const {
+    if (!state_.sizes.binding()) return true;
+    const double allowed = state_.sizes.around(mesh_, vertex_, position);
+    for (std::size_t t = 0; t < star_.size(); ++t) {
+        const double before = (star_.ring(t) - mesh_.position(vertex_)).norm();
+        if (star_.spoke(t) > before && !VertexSizes::fits(star_.spoke(t), allowed, state_.sizes.allowed(star_.vertex(t))))
+            return false;
+    }
+    return true;
 }
 
 void VertexMover::put(std::uint32_t v, const Vec3& place) {
@@ -67,10 +80,13 @@ void VertexMover::put(std::uint32_t v, const Vec3& place) {
     if (!creases_.try_move(v, star_, place + limits_.centre)) return;
     if (guard_ != nullptr && !replacement_.try_on(*guard_, star_, place + limits_.centre, {})) return;
     log_.record_move(v, mesh_.position(v));
+    if (state_.sizes.given()) state_.sizes.put(v, state_.sizes.around(mesh_, v, place + limits_.centre));
     mesh_.move(v, place + limits_.centre);
     creases_.commit();
     for (std::size_t t = 0; t < star_.size(); ++t) {
-        state_.faces[star_.face(t)] = {star_.normal(t), star_.stretch(t), star_.face_size(t)};
+        const std::uint32_t after = star_.vertex(t + 1 < star_.size() ? t + 1 : 0);
+        state_.faces[star_.face(t)] = {star_.normal(t), star_.stretch(t),
+                                       state_.sizes.relative(star_.face_size(t), v, star_.vertex(t), after)};
     }
 }
 

@@ -35,6 +35,7 @@ private:
     [[nodiscard]] bool gather_star(std::uint32_t v);
     [[nodiscard]] Vec3 ideal() const;
     [[nodiscard]] bool admits(const Vec3& place);
+    [[nodiscard]] bool sizes_admit(const Vec3& position) const;
     void put(std::uint32_t v, const Vec3& place);
 
     HalfEdgeMesh& mesh_;
@@ -45,6 +46,7 @@ private:
     const PolishLimits limits_;
     FanReplacement replacement_;
     // Of the vertex at hand:
+    std::uint32_t vertex_ = 0;
     Fan star_;
     Fan::Shape shape_;  // by the last `admits`
     Quadric quadric_;

@@ -155,6 +155,10 @@ std::vector<double> sizes_on(const SubdividedMesh& fine, const TriangleMesh& sou
     return graded_sizes(fine.mesh, std::move(sizes), field.gradation());
 }
 
+double size_at(const TriangleMesh& source, const SizeField& field, std::uint32_t face, const Vec3& point) {
+    return std::min(linear_size(source, field.vertex_sizes(), face, point), field.size_of_shapes(point));
+}
+
 std::vector<double> graded_sizes(const TriangleMesh& mesh, std::vector<double> sizes, double gradation) {
     using Entry = std::pair<double, std::uint32_t>;
     const auto later = [](const Entry& left, const Entry& right) { return left > right; };

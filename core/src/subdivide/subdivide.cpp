@@ -5,6 +5,7 @@
 
 #include "base/number_text.h"
 #include "subdivide/midpoints.h"
+#include "vsplit/quality/stretch.h"
 
 namespace vsplit {
 namespace {
@@ -47,7 +48,6 @@ double fitting_max_edge(const TriangleMesh& mesh, std::uint64_t limit) {
 
 std::uint64_t predict_subdivision(const TriangleMesh& mesh, double max_edge, std::uint64_t limit) {
     // No piece has more area than the equilateral triangle of that edge, so far too many need not be counted.
-    constexpr double kEquilateralArea = 0.4330127018922193;
     if (surface_area(mesh) > 1.01 * kEquilateralArea * max_edge * max_edge * static_cast<double>(limit)) return limit + 1;
     return count_pieces(mesh, UniformSize{max_edge}, point_of(mesh), limit);
 }

@@ -40,8 +40,8 @@ struct ImproveOptions {
     std::optional<FeatureDetection> feature_detection{};  ///< how creases are found; default DIHEDRAL
     std::vector<std::uint32_t> marked_edges{};  ///< edges to keep as creases, as pairs of vertices of the source; default none
     std::vector<std::uint32_t> regions{};       ///< an id a face of the source; borders between ids are creases. Default none
-    std::optional<SizingOptions>
-        sizing{};  ///< edges as long as a place on the surface allows; comes with a later version (UNSUPPORTED now)
+    std::optional<SizingOptions> sizing{};  ///< edges no longer than a place on the surface allows. Default: no bound, but see
+                                            ///< docs/method.md for what sizes follow where `faces` is not given
 };
 
 /// What `control` may be asked for. Lengths in model units.

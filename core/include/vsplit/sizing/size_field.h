@@ -52,6 +52,9 @@ private:
 /// O(faces log faces + vertices * (spheres + boxes)).
 [[nodiscard]] std::vector<double> sizes_on(const SubdividedMesh& fine, const TriangleMesh& source, const SizeField& field);
 
+/// The field at `point`, which lies in or near face `face` of the source. O(spheres + boxes).
+[[nodiscard]] double size_at(const TriangleMesh& source, const SizeField& field, std::uint32_t face, const Vec3& point);
+
 /// Sizes brought down until they differ along each edge by at most gradation * its length; the largest such sizes there are.
 /// The same for any order of faces. O(faces log faces).
 [[nodiscard]] std::vector<double> graded_sizes(const TriangleMesh& mesh, std::vector<double> sizes, double gradation);

@@ -1,0 +1,90 @@
+#include "method/size_plan.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+#include "spatial/surface_index.h"
+#include "vsplit/quality/stretch.h"
+
+namespace vsplit {
+namespace {
+
+constexpr double kChordShare = 2;    // of the tolerance: what max_deviation is by default
+constexpr double kLeastShare = 0.2;  // of the usual size
+constexpr double kGrowth = 1.25;
+
+Expected<SizeField> field_of(const TriangleMesh& mesh, const SizingOptions& sizing, const FeatureOptions& features) {
+    return make_size_field(mesh, sizing, find_creases(mesh, face_normals(mesh), features));
+}
+
+double mean_of(const std::vector<double>& sizes, const Triangle& t) { return (sizes[t[0]] + sizes[t[1]] + sizes[t[2]]) / 3; }
+
+}  // namespace
+
+Expected<std::optional<SizePlan>> plan_sizes(const TriangleMesh& mesh, const std::optional<SizingOptions>& sizing,
+                                             const FeatureOptions& features, double usual) {
+    if (!sizing) return std::optional<SizePlan>();
+    Expected<SizeField> field = field_of(mesh, *sizing, features);
+    if (!field) return field.error();
+    return std::optional<SizePlan>({*std::move(field), usual, true});
+}
+
+Expected<SizePlan> plan_by_curvature(const TriangleMesh& mesh, const FeatureOptions& features, double tolerance, double usual,
+                                     std::uint32_t face_budget) {
+    SizingOptions sizing;
+    sizing.chord_error = kChordShare * tolerance;
+    sizing.max_size = usual;
+    for (double least = kLeastShare * usual;; least *= kGrowth) {
+        sizing.min_size = std::min(least, usual);
+        Expected<SizeField> field = field_of(mesh, sizing, features);
+        if (!field) return field.error();
+        if (least >= usual || predict_subdivision(mesh, *field, face_budget) <= face_budget) {
+            return SizePlan{*std::move(field), usual, false};
+        }
+    }
+}
+
+std::vector<double> allowed_sizes(const SubdividedMesh& fine, const TriangleMesh& source, const SizePlan& plan) {
+    return sizes_on(fine, source, plan.field);
+}
+
+double wanted_faces(const SubdividedMesh& fine, const TriangleMesh& source, const SizePlan& plan) {
+    std::vector<double> wanted = allowed_sizes(fine, source, plan);
+    for (double& size : wanted) size = std::min(size, plan.usual);
+    double faces = 0;
+    for (const Triangle& t : fine.mesh.faces) {
+        const Vec3& a = fine.mesh.positions[t[0]];
+        const double area = (fine.mesh.positions[t[1]] - a).cross(fine.mesh.positions[t[2]] - a).norm() / 2;
+        const double size = mean_of(wanted, t);
+        faces += area / (kEquilateralArea * size * size);
+    }
+    return faces;
+}
+
+std::optional<Violation> find_oversized(const TriangleMesh& result, const TriangleMesh& source, const SizePlan& plan) {
+    if (!plan.binding) return std::nullopt;
+    const SurfaceIndex index = surface_index(source);
+    std::vector<double> allowed;
+    allowed.reserve(result.positions.size());
+    for (const Vec3& p : result.positions) allowed.push_back(size_at(source, plan.field, index.closest(p).element, p));
+    Violation violation;
+    violation.bound = "sizing";
+    violation.limit = violation.worst = 1;
+    for (std::uint32_t f = 0; f < result.face_count(); ++f) {
+        const Triangle& t = result.faces[f];
+        double ratio = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+            ratio = std::max(ratio, (result.positions[a] - result.positions[b]).norm() / std::min(allowed[a], allowed[b]));
+        }
+        if (!(ratio > 1)) continue;
+        violation.worst = std::max(violation.worst, ratio);
+        if (violation.count++ < Violation::kExamples) violation.elements.push_back(f);
+    }
+    if (violation.count == 0) return std::nullopt;
+    violation.reason = "vertices have moved since these sizes were looked up; a smaller size or more faces meet it";
+    return violation;
+}
+
+}  // namespace vsplit
