@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/thread_limit.h"
-#include "method/run_policy.h"
+#include "method/report_creases.h"
 #include "vsplit/mesh/inspect.h"
 
 namespace vsplit {
@@ -93,6 +93,7 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     Expected<MethodResult> tried = run_policy(mesh, std::move(*subdivided), run, ImprovePolicy{}, faces_of, context);
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
+    if (Status told = report_creases(result, mesh, run, context); !told) return told.error();
     report_deviation(result, options.max_deviation);
     if (!options.faces) used.faces = result.faces;
     result.options = used;
