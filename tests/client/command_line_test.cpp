@@ -96,8 +96,8 @@ TEST_F(CommandLineTest, QualityAgainstTellsTheDistanceBothWays) {
 }
 
 TEST_F(CommandLineTest, QualityAgainstMeasuresAsCloselyAsAsked) {
-    const std::string ball = mesh_file("ball.ply", test::icosphere(4));
-    const std::string coarse = mesh_file("coarse.ply", test::icosphere(2));
+    const std::string ball = mesh_file("ball.ply", test::bumpy_sphere(3, 0.1, 1));
+    const std::string coarse = mesh_file("coarse.ply", test::bumpy_sphere(2, 0.1, 2));
     const auto gap = [&](const std::string& error) {
         google::protobuf::Struct document;
         EXPECT_TRUE(wire::from_json(run({"quality", coarse, "--against", ball, "--error", error, "--json"}).out, document));

@@ -13,6 +13,7 @@ namespace vsplit {
 namespace {
 
 constexpr double kLeastNormalCosine = 0.2;  // a fold is more, as for collapses
+constexpr std::size_t kMostFaces = 64;      // around a vertex that may go, as for collapses
 
 class Mender {
 public:
@@ -33,7 +34,8 @@ public:
     /// The origin of h goes to its target.
     [[nodiscard]] std::optional<double> collapse(HalfEdge h) const {
         const std::vector<HalfEdge> corners = corners_around(h);
-        if (corners.empty() || !keeps_creases(corners, h) || !keeps_topology(corners, h)) return std::nullopt;
+        if (corners.empty() || corners.size() > kMostFaces || !keeps_creases(corners, h) || !keeps_topology(corners, h))
+            return std::nullopt;
         std::vector<TriangleShape> before, after;
         const Vec3& kept = at(next(h));
         for (const HalfEdge corner : corners) {

@@ -67,7 +67,7 @@ std::string range(double least, double most) {
 
 std::string message_of(const Slivers& s, double max_deviation) {
     const bool one = s.count == 1;
-    const std::string faces = std::to_string(s.count) + (one ? " face " : " faces ");
+    std::string faces = std::to_string(s.count) + (one ? " face " : " faces ");
     const std::string values = range(s.least, s.most);
     switch (s.cause) {
         case SliverCause::kNarrowStrip:
