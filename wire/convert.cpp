@@ -89,6 +89,7 @@ v1::Quality to_proto(const Quality& quality, std::span<const FaceQuality> worst)
     proto.set_valence_max(quality.valence_max);
     add_elements(quality.stretch_histogram, *proto.mutable_stretch_histogram());
     if (quality.deviation_max) proto.set_deviation_max(*quality.deviation_max);
+    if (quality.crease_deviation_max) proto.set_crease_deviation_max(*quality.crease_deviation_max);
     for (const FaceQuality& face : worst) {
         v1::FaceQuality& entry = *proto.add_worst_faces();
         entry.set_face(face.face);
@@ -130,6 +131,25 @@ v1::Violation to_proto(const Violation& violation) {
     proto.set_count(violation.count);
     add_elements(violation.elements, *proto.mutable_elements());
     proto.set_reason(sentence(violation.reason));
+    return proto;
+}
+
+v1::Slivers to_proto(const Slivers& slivers) {
+    v1::Slivers proto;
+    proto.set_cause(std::string(sliver_cause_name(slivers.cause)));
+    proto.set_count(slivers.count);
+    add_elements(slivers.elements, *proto.mutable_elements());
+    proto.set_message(sentence(slivers.message));
+    proto.set_least(slivers.least);
+    proto.set_most(slivers.most);
+    return proto;
+}
+
+v1::RecordCounts count_records(const RecordSpan& records) {
+    v1::RecordCounts proto;
+    proto.set_splits(static_cast<std::uint32_t>(records.splits.size()));
+    proto.set_flips(static_cast<std::uint32_t>(records.flips.size()));
+    proto.set_moves(static_cast<std::uint32_t>(records.moves.size()));
     return proto;
 }
 

@@ -32,6 +32,8 @@ namespace vsplit::wire {
 [[nodiscard]] v1::MeshSummary to_proto(const MeshReport& report);
 
 [[nodiscard]] v1::Violation to_proto(const Violation& violation);
+[[nodiscard]] v1::Slivers to_proto(const Slivers& slivers);
+[[nodiscard]] v1::RecordCounts count_records(const RecordSpan& records);
 
 [[nodiscard]] v1::Progress to_proto(const Progress& progress);
 

@@ -64,6 +64,8 @@ v1::Representation describe(const std::string& id, const std::string& source_rep
     proto.set_faces(result.faces);
     *proto.mutable_quality() = to_proto(result.quality);
     set_violations(result.violations, proto);
+    for (const Slivers& slivers : result.slivers) *proto.add_slivers() = to_proto(slivers);
+    *proto.mutable_records() = count_records(result.mrr.records);
     *proto.mutable_elapsed() = to_duration(result.elapsed);
     return proto;
 }
@@ -71,6 +73,7 @@ v1::Representation describe(const std::string& id, const std::string& source_rep
 void describe_resolution(const TriangleMesh& mesh, v1::Representation& representation) {
     representation.set_faces(mesh.face_count());
     *representation.mutable_quality() = to_proto(measure_quality(mesh));
+    representation.clear_slivers();  // they were told with the source at hand, and name faces of another resolution
     if (!representation.has_control_options()) return;
     const Expected<ControlOptions> options = from_proto(representation.control_options());
     if (!options) return;  // a mode of a later version: its bounds cannot be judged here

@@ -13,7 +13,8 @@ namespace vsplit::wire {
                                           std::uint32_t source_faces, const MethodResult& result);
 
 /// Moves the figures of a Representation to another of its resolutions, whose mesh is given: faces, quality, and, for CONTROL,
-/// what breaks its bounds there. What the method said of a bound stays its reason. O(faces log faces).
+/// what breaks its bounds there. What the method said of a bound stays its reason; what takes the source to tell, deviations and
+/// slivers, goes. O(faces log faces).
 void describe_resolution(const TriangleMesh& mesh, v1::Representation& representation);
 
 }  // namespace vsplit::wire

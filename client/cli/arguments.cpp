@@ -230,6 +230,11 @@ void add_quality(CLI::App& app, Arguments& a) {
     verb.add_option("--against", a.against,
                     "Measure the distance to this mesh or .vsplit file instead, both ways and between creases; not with a server")
         ->type_name("FILE");
+    verb.add_option("--error", a.error,
+                    "With --against: how close the bounds of the distances are to be; length > 0. Default 2 % of them or 1e-5 of "
+                    "the diagonal, whichever is more")
+        ->check(real_number())
+        ->type_name("E");
     add_resolution(verb, a, "Resolution of a representation to describe. Default: the one it was made for");
     verb.footer(
         "Stretch is sqrt(12) * inradius / longest edge: 1 equilateral, 0 degenerate; solvers want 0.2 and more.\n"

@@ -29,7 +29,8 @@ struct Arguments {
     std::string size_field;                     ///< improve, control: file of sizes, read by read_size_field_into
     ImproveOptions improve;
     ControlOptions control;
-    std::string against;  ///< quality: the mesh to measure the distance to; empty: none
+    std::string against;          ///< quality: the mesh to measure the distance to; empty: none
+    std::optional<double> error;  ///< quality against: most error of the distances; empty: the default
     std::string server;
     std::string session;
     std::string representation;

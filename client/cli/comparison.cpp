@@ -22,10 +22,16 @@ std::string object(const DirectedDeviation& d) {
 
 }  // namespace
 
-Expected<Comparison> compare(const TriangleMesh& mesh, const TriangleMesh& against, const ExecutionContext& context) {
-    const Expected<Deviation> surface = measure_deviation(mesh, against, {}, context);
+Expected<Comparison> compare(const TriangleMesh& mesh, const TriangleMesh& against, std::optional<double> error,
+                             const ExecutionContext& context) {
+    if (error && !(*error > 0 && std::isfinite(*error))) {
+        return Error{Cause::kInvalidOption, "the error is " + number(*error) + "; a length above 0 is accepted", "error"};
+    }
+    DeviationOptions accuracy;
+    if (error) accuracy = {.relative_error = 0, .absolute_error = *error};
+    const Expected<Deviation> surface = measure_deviation(mesh, against, accuracy, context);
     if (!surface) return surface.error();
-    const Expected<CreaseDeviation> creases = measure_crease_deviation(mesh, against, {}, context);
+    const Expected<CreaseDeviation> creases = measure_crease_deviation(mesh, against, {.accuracy = accuracy}, context);
     if (!creases) return creases.error();
     return Comparison{mesh.face_count(), against.face_count(), bounding_box(against).diagonal(), *surface, *creases};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "vsplit/base/execution_context.h"
@@ -19,8 +20,9 @@ struct Comparison {
     CreaseDeviation creases;
 };
 
-/// Measures with the default accuracy; `against` is the source. \return what the measures return.
-[[nodiscard]] Expected<Comparison> compare(const TriangleMesh& mesh, const TriangleMesh& against,
+/// `against` is the source; bounds of distances are within `error` of each other (length > 0), or as close as by default.
+/// \return INVALID_OPTION (error) and what the measures return.
+[[nodiscard]] Expected<Comparison> compare(const TriangleMesh& mesh, const TriangleMesh& against, std::optional<double> error,
                                            const ExecutionContext& context);
 
 /// One document, lengths in the units of the mesh; a distance to creases that are not there is null.

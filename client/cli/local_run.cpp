@@ -101,7 +101,7 @@ Expected<Outcome> compare_meshes(const Arguments& a, ProgressBar& progress, cons
     if (!against) return against.error();
     ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
     const StopCallback on_stop(stop, [&context] { context.cancel(); });
-    const Expected<Comparison> comparison = compare(*mesh, *against, context);
+    const Expected<Comparison> comparison = compare(*mesh, *against, a.error, context);
     if (!comparison) return comparison.error();
     return Outcome{*comparison, *std::move(mesh), {}};
 }
@@ -120,6 +120,7 @@ v1::Representation description_of(const StoredMrr& stored) {
     if (!read) representation.Clear();
     representation.set_faces_min(stored.mrr.faces_min());
     representation.set_faces_max(stored.mrr.faces_max());
+    *representation.mutable_records() = wire::count_records(stored.mrr.records);
     return representation;
 }
 

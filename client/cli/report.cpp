@@ -5,6 +5,7 @@
 
 #include "cli/message.h"
 #include "cli/number_text.h"
+#include "vsplit/mrr/record_block.h"
 #include "vsplit/quality/stretch.h"
 
 namespace vsplit::cli {
@@ -29,6 +30,7 @@ std::string quality_lines(const v1::Quality& q) {
     text += line("longest edge", figure(q.size_max()));
     text += line("largest valence", grouped(q.valence_max()));
     if (q.has_deviation_max()) text += line("deviation", figure(q.deviation_max()));
+    if (q.has_crease_deviation_max()) text += line("crease deviation", figure(q.crease_deviation_max()));
     return text;
 }
 
@@ -127,13 +129,29 @@ std::string bounds_line(const v1::Representation& r) {
     return line("bounds", broken);
 }
 
+/// How large the stream of records is, and what of it each kind takes.
+std::string records_line(const v1::RecordCounts& r) {
+    if (r.splits() == 0) return {};
+    const auto per_split = [&](std::uint32_t count, RecordKind kind) {
+        return static_cast<double>(count) * static_cast<double>(record_bytes(kind)) / r.splits();
+    };
+    const double splits = per_split(r.splits(), RecordKind::kSplit);
+    const double flips = per_split(r.flips(), RecordKind::kFlip);
+    const double moves = per_split(r.moves(), RecordKind::kMove);
+    return line("records", counted(r.splits(), "split", "splits") + ", " + counted(r.flips(), "flip", "flips") + ", " +
+                               counted(r.moves(), "move", "moves")) +
+           line("bytes a split", fixed(splits + flips + moves, 1) + " (" + fixed(splits, 0) + " + " + fixed(flips, 1) +
+                                     " of flips + " + fixed(moves, 1) + " of moves)");
+}
+
 std::string text_of(const v1::Representation& r, bool detailed) {
     std::string text;
     if (!r.id().empty()) text += line("representation", r.id());
     text += line("method", method_name(r.method()));
     text += line("faces", grouped(r.faces()) + " (" + grouped(r.faces_min()) + " to " + grouped(r.faces_max()) + " at hand)");
-    text += option_lines(r) + quality_lines(r.quality()) + bounds_line(r);
+    text += option_lines(r) + quality_lines(r.quality()) + bounds_line(r) + records_line(r.records());
     if (r.has_elapsed()) text += line("time", fixed(seconds(r.elapsed()), 2) + " s");
+    for (const v1::Slivers& slivers : r.slivers()) text += line("slivers", slivers.message());
     return text + details(r.quality(), detailed);
 }
 

@@ -95,6 +95,21 @@ TEST_F(CommandLineTest, QualityAgainstTellsTheDistanceBothWays) {
         << "there is no crease to be near to";
 }
 
+TEST_F(CommandLineTest, QualityAgainstMeasuresAsCloselyAsAsked) {
+    const std::string ball = mesh_file("ball.ply", test::bumpy_sphere(3, 0.1, 1));
+    const std::string coarse = mesh_file("coarse.ply", test::bumpy_sphere(2, 0.1, 2));
+    const auto gap = [&](const std::string& error) {
+        google::protobuf::Struct document;
+        EXPECT_TRUE(wire::from_json(run({"quality", coarse, "--against", ball, "--error", error, "--json"}).out, document));
+        return document.fields().at("deviationMax").number_value() - document.fields().at("deviationMeasured").number_value();
+    };
+    EXPECT_LE(gap("1e-7"), 1e-7);
+    EXPECT_GT(gap("0.01"), 1e-7);
+    const CommandResult none = run({"quality", coarse, "--against", ball, "--error", "0"});
+    EXPECT_EQ(none.exit_status, 1);
+    EXPECT_NE(none.err.find("a length above 0"), std::string::npos) << none.err;
+}
+
 TEST_F(CommandLineTest, QualityAgainstRefusesWhatItCannotCompare) {
     const std::string cube = mesh_file("cube.stl", test::cube());
     EXPECT_NE(run({"quality", cube, "--against", file("none.stl")}).err.find("none.stl"), std::string::npos);

@@ -68,7 +68,22 @@ TEST(ReportTest, TellsWhatARepresentationIs) {
     made.mutable_control_options()->set_max_valence(10);
     made.mutable_elapsed()->set_seconds(2);
     made.set_bounds_satisfied(true);
+    made.mutable_quality()->set_crease_deviation_max(0.25);
+    made.add_slivers()->set_message("83 faces lie between creases 0.012 to 0.03 apart");
+    made.add_slivers()->set_message("1 face joins corners");
+    made.mutable_records()->set_splits(1000);
+    made.mutable_records()->set_flips(2000);
+    made.mutable_records()->set_moves(1);
     const std::string text = report(made, false);
+    EXPECT_TRUE(has(text, "crease deviation  0.25\n")) << text;
+    EXPECT_TRUE(has(text,
+                    "slivers           83 faces lie between creases 0.012 to 0.03 apart\n"
+                    "slivers           1 face joins corners\n"))
+        << text;
+    EXPECT_TRUE(has(text,
+                    "records           1,000 splits, 2,000 flips, 1 move\n"
+                    "bytes a split     67.0 (57 + 10.0 of flips + 0.0 of moves)\n"))
+        << text;
     EXPECT_TRUE(has(text, "representation    r1\n")) << text;
     EXPECT_TRUE(has(text, "1,000 (100 to 4,000 at hand)")) << text;
     EXPECT_TRUE(has(text, "valence bound     10\n")) << text;

@@ -39,6 +39,8 @@ TEST(RepresentationTest, DescribesAnImprovement) {
     EXPECT_EQ(made.mode(), v1::STRICT);
     EXPECT_EQ(made.elapsed().seconds(), 2);
     EXPECT_EQ(made.elapsed().nanos(), 500'000'000);
+    EXPECT_EQ(made.records().splits(), 10U);
+    EXPECT_EQ(made.records().moves(), 0U);
 }
 
 TEST(RepresentationTest, DescribesWhatControlCouldNotMend) {
@@ -49,6 +51,26 @@ TEST(RepresentationTest, DescribesWhatControlCouldNotMend) {
     EXPECT_FALSE(made.bounds_satisfied());
     ASSERT_EQ(made.violations_size(), 1);
     EXPECT_EQ(made.violations(0).reason(), "no collapse helps");
+}
+
+TEST(RepresentationTest, TellsWhatForcesSliversAtItsOwnResolution) {
+    MethodResult result = a_result(ImproveOptions());
+    result.quality.deviation_max = 0.25;
+    result.quality.crease_deviation_max = 0.125;
+    result.slivers.push_back({SliverCause::kNarrowStrip, 83, 0.012, 0.03, {4, 5}, "83 faces lie between creases"});
+    v1::Representation made = describe("r5", "", 12, result);
+    EXPECT_EQ(made.quality().crease_deviation_max(), 0.125);
+    ASSERT_EQ(made.slivers_size(), 1);
+    EXPECT_EQ(made.slivers(0).cause(), "NARROW_STRIP");
+    EXPECT_EQ(made.slivers(0).count(), 83U);
+    EXPECT_EQ(made.slivers(0).least(), 0.012);
+    EXPECT_EQ(made.slivers(0).most(), 0.03);
+    EXPECT_EQ(made.slivers(0).elements_size(), 2);
+    EXPECT_EQ(made.slivers(0).message(), "83 faces lie between creases");
+
+    describe_resolution(test::icosphere(1), made);
+    EXPECT_EQ(made.slivers_size(), 0) << "those faces are not there";
+    EXPECT_FALSE(made.quality().has_crease_deviation_max());
 }
 
 TEST(RepresentationTest, LeavesOutWhatMayBeAsLargeAsTheMesh) {

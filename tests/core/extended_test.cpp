@@ -120,6 +120,7 @@ TEST_P(Extended, SameBytesForAnyNumberOfThreadsAndAgain) {
     for (const std::size_t n : {1U, 2U}) {
         EXPECT_TRUE(bytes[n] == bytes[0]) << n;
         EXPECT_EQ(qualities[n].deviation_max, qualities[0].deviation_max) << n;
+        EXPECT_EQ(qualities[n].crease_deviation_max, qualities[0].crease_deviation_max) << n;
         EXPECT_EQ(qualities[n].stretch_mean, qualities[0].stretch_mean) << n;
     }
 }

@@ -109,6 +109,17 @@ TEST(RecordBlockTest, AsManyFitAsTheLimitAllows) {
     }
 }
 
+TEST(RecordBlockTest, BytesOfARecordAreThoseItAdds) {
+    const auto bytes_of_8 = [](const auto& record) {
+        RecordList records;
+        for (int n = 0; n < 8; ++n) records.push_back(record);
+        return encode_block(records, 0, RecordEncoding::kFloat64).payload.size();
+    };
+    EXPECT_EQ(bytes_of_8(VertexSplit{}), 8 * record_bytes(RecordKind::kSplit));
+    EXPECT_EQ(bytes_of_8(EdgeFlip{}), 8 * record_bytes(RecordKind::kFlip));
+    EXPECT_EQ(bytes_of_8(VertexMove{}), 8 * record_bytes(RecordKind::kMove));
+}
+
 TEST(RecordBlockTest, AnyChangedByteIsCorrupt) {
     const RecordBlock block = block_of(4);
     for (std::size_t i = 0; i < block.payload.size(); ++i) {

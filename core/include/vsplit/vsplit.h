@@ -26,6 +26,7 @@
 #include "vsplit/quality/crease_deviation.h"
 #include "vsplit/quality/deviation.h"
 #include "vsplit/quality/mesh_quality.h"
+#include "vsplit/quality/slivers.h"
 #include "vsplit/quality/stretch.h"
 #include "vsplit/simplify/quadric.h"
 #include "vsplit/sizing/size_field.h"

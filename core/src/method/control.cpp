@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/thread_limit.h"
-#include "method/run_policy.h"
+#include "method/report_creases.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/quality/stretch.h"
@@ -159,6 +159,7 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
         run_policy(mesh, std::move(*subdivided), run, policy_of(used, bounding_box(mesh).diagonal()), faces_of, context);
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
+    if (Status told = report_creases(result, mesh, run, context); !told) return told.error();
     result.options = used;
     result.violations = find_violations(mesh_at(result.mrr, result.mrr.level_for(result.faces)), used);
     for (Violation& violation : result.violations)

@@ -102,15 +102,18 @@ void show(MethodResult& result, std::size_t level, const TriangleMesh& mesh, dou
 
 }  // namespace
 
+DeviationOptions accuracy_for(std::optional<double> limit, double diagonal) {
+    DeviationOptions options;
+    if (!limit) return options;
+    options.relative_error = 0.01;
+    options.absolute_error = std::min(0.01 * *limit, 1e-5 * diagonal);
+    return options;
+}
+
 Status measure(MethodResult& result, const TriangleMesh& source, const SurfaceIndex* source_index, std::optional<double> limit,
                bool may_refine, const ExecutionContext& context) {
     if (source_index == nullptr) return Done{};
-    DeviationOptions options;
-    if (limit) {
-        // The upper bound is what counts, and a bound may be far below the default error.
-        options.relative_error = 0.01;
-        options.absolute_error = std::min(0.01 * *limit, 1e-5 * bounding_box(source).diagonal());
-    }
+    const DeviationOptions options = accuracy_for(limit, bounding_box(source).diagonal());
     std::size_t level = result.mrr.level_for(result.faces);
     for (;;) {
         const TriangleMesh mesh = mesh_at(result.mrr, level);
@@ -124,16 +127,25 @@ Status measure(MethodResult& result, const TriangleMesh& source, const SurfaceIn
     }
 }
 
-void report_deviation(MethodResult& result, std::optional<double> limit) {
-    const std::optional<double> measured = result.quality.deviation_max;
+namespace {
+
+/// A violation of max_deviation where `measured` is more than `limit`.
+void report_over(MethodResult& result, std::optional<double> measured, std::optional<double> limit, const char* reason) {
     if (!limit || !measured || *measured <= *limit) return;
     Violation violation;
     violation.bound = "max_deviation";
     violation.limit = *limit;
     violation.worst = *measured;
     violation.count = 1;
-    violation.reason = "no resolution keeps to it; a larger length is met, or a smaller subdivision size meets this one";
+    violation.reason = reason;
     result.violations.push_back(std::move(violation));
+}
+
+}  // namespace
+
+void report_deviation(MethodResult& result, std::optional<double> limit) {
+    report_over(result, result.quality.deviation_max, limit,
+                "no resolution keeps to it; a larger length is met, or a smaller subdivision size meets this one");
 }
 
 void report_sizes(MethodResult& result, const TriangleMesh& source, const SizePlan& plan) {

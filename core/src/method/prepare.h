@@ -5,6 +5,7 @@
 #include "spatial/surface_index.h"
 #include "vsplit/features/creases.h"
 #include "vsplit/method/method_result.h"
+#include "vsplit/quality/deviation.h"
 #include "vsplit/subdivide/subdivide.h"
 
 namespace vsplit {
@@ -37,6 +38,10 @@ void fill_tolerances(double diagonal, Options& options) {
 
 /// Has the simplifier keep its samples within `distance` of `source`, both ways. O(faces log faces).
 void guard(SimplifyInput& input, const TriangleMesh& source, double distance);
+
+/// How close distances to a source of this diagonal are measured: where a limit is given it is the upper bound that counts, and
+/// a limit may be far below the default error.
+[[nodiscard]] DeviationOptions accuracy_for(std::optional<double> limit, double diagonal);
 
 /// Measures how far the result's shown resolution and its source are apart. Where that is more than `limit` and it `may_refine`,
 /// shows a finer resolution that keeps to it, or else the finest. Does nothing without an index of the source. Stage "measure".

@@ -45,9 +45,9 @@ char* store_block(char* to, const RecordBlock& block) {
 /// What the blocks of all records take at most: no record takes more than a split, and all blocks but the last have no room for
 /// another.
 std::size_t most_block_bytes(const RecordList& records) {
-    constexpr std::size_t kSplit = 57, kFlip = 5, kMove = 29, kFill = 7;
-    const std::size_t payload =
-        records.splits().size() * kSplit + records.flips().size() * kFlip + records.moves().size() * kMove;
+    constexpr std::size_t kSplit = record_bytes(RecordKind::kSplit), kFill = 7;
+    const std::size_t payload = records.splits().size() * kSplit + records.flips().size() * record_bytes(RecordKind::kFlip) +
+                                records.moves().size() * record_bytes(RecordKind::kMove);
     const std::size_t blocks = payload / (kMaxBlockBytes - kSplit - kFill) + 1;
     return payload + blocks * (kMrrBlockHeaderBytes + kFill);
 }

@@ -8,6 +8,7 @@
 #include "vsplit/method/method_options.h"
 #include "vsplit/mrr/multires_mesh.h"
 #include "vsplit/quality/mesh_quality.h"
+#include "vsplit/quality/slivers.h"
 
 namespace vsplit {
 
@@ -31,6 +32,7 @@ struct MethodResult {
     std::uint32_t faces_subdivided = 0;  ///< faces before simplification; equals mrr.faces_max()
     Quality quality;                     ///< at `faces`
     std::vector<Violation> violations;   ///< at `faces`; empty when all bounds hold
+    std::vector<Slivers> slivers;        ///< at `faces`: why there are faces under 0.2, by cause; empty where there are none
     std::chrono::duration<double> elapsed{};
 
     [[nodiscard]] bool bounds_satisfied() const { return violations.empty(); }

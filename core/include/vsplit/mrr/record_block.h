@@ -15,6 +15,11 @@ enum class RecordEncoding : std::uint32_t {
     kFloat64 = 1,  ///< bit-exact columns, little-endian: 57 bytes a split, 5 a flip, 29 a move
 };
 
+/// Bytes that a record adds to a block of the encoding kFloat64, beside at most 7 that fill up a block.
+[[nodiscard]] constexpr std::size_t record_bytes(RecordKind kind) {
+    return kind == RecordKind::kSplit ? 57 : kind == RecordKind::kMove ? 29 : 5;
+}
+
 /// A run of records as it travels and as it is stored.
 struct RecordBlock {
     std::uint32_t first = 0;  ///< number of the first record

@@ -28,6 +28,11 @@ struct Quality {
     std::uint32_t valence_max = 0;                      ///< most edges at one vertex
     std::array<std::uint32_t, 20> stretch_histogram{};  ///< faces with stretch in [i/20, (i+1)/20); 1 counts in the last
     std::optional<double> deviation_max;                ///< measured two-sided distance to the source; empty when not measured
+    /// Of the source's creases (those the method used) to the result's; empty when not measured or where the source has none. An
+    /// upper bound that is certain, over a distance that is attained by 2 % or 1e-5 of the diagonal at most, whichever is more.
+    /// The result's creases are its edges that bend by more than half of feature_angle, and its boundary; for a crease of the
+    /// source that bends less itself (marked, a border of regions, voted for), all its edges. Infinite where it has none.
+    std::optional<double> crease_deviation_max;
 };
 
 /// O(faces log faces) time; an empty mesh has all figures 0.

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "method/run_policy.h"
+
+namespace vsplit {
+
+/// Fills in what has to do with creases of the result's shown resolution: crease_deviation_max in the extended mode, and
+/// `slivers`. The source's creases are those the method used. O(faces + creases log creases). \return CANCELLED.
+[[nodiscard]] Status report_creases(MethodResult& result, const TriangleMesh& source, const MethodRun& run,
+                                    const ExecutionContext& context);
+
+}  // namespace vsplit

@@ -1,0 +1,129 @@
+#include "quality/sliver_mends.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "spatial/shapes.h"
+#include "vsplit/quality/stretch.h"
+
+namespace vsplit {
+namespace {
+
+constexpr double kLeastNormalCosine = 0.2;  // a fold is more, as for collapses
+constexpr std::size_t kMostFaces = 64;      // around a vertex that may go, as for collapses
+
+class Mender {
+public:
+    Mender(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals, double stretch)
+        : mesh_(mesh), marks_(marks), normals_(normals), stretch_(stretch) {}
+
+    [[nodiscard]] std::optional<double> flip(HalfEdge h) const {
+        const HalfEdge g = marks_.twin(h);
+        if (g == kNone || marks_.marked(h)) return std::nullopt;
+        const Vec3 &a = at(h), &b = at(g), &c = at(prev(h)), &d = at(prev(g));
+        if (joined(prev(h), origin(mesh_, prev(g)))) return std::nullopt;
+        if (!betters(TriangleShape{{d, c, a}}, face_of(h)) || !betters(TriangleShape{{c, d, b}}, face_of(g))) return std::nullopt;
+        const Vec3 across = (b - a).cross(d - c);
+        const double length = across.norm();
+        return length > 0 ? std::abs(across.dot(c - a)) / length : (c - a).norm();
+    }
+
+    /// The origin of h goes to its target.
+    [[nodiscard]] std::optional<double> collapse(HalfEdge h) const {
+        const std::vector<HalfEdge> corners = corners_around(h);
+        if (corners.empty() || corners.size() > kMostFaces || !keeps_creases(corners, h) || !keeps_topology(corners, h))
+            return std::nullopt;
+        std::vector<TriangleShape> before, after;
+        const Vec3& kept = at(next(h));
+        for (const HalfEdge corner : corners) {
+            before.push_back({{at(corner), at(next(corner)), at(prev(corner))}});
+            if (corner == h || face_of(corner) == face_of(marks_.twin(h))) continue;  // the two that vanish
+            after.push_back({{kept, at(next(corner)), at(prev(corner))}});
+            if (!betters(after.back(), face_of(corner))) return std::nullopt;
+        }
+        return distance_between(at(h), before, after);
+    }
+
+private:
+    [[nodiscard]] const Vec3& at(HalfEdge h) const { return mesh_.positions[origin(mesh_, h)]; }
+
+    /// Whether a face that replaces another is no fold, and no sliver as bad as the one to be mended.
+    [[nodiscard]] bool betters(const TriangleShape& face, std::uint32_t old) const {
+        const auto& [a, b, c] = face.corners;
+        const Vec3 normal = (b - a).cross(c - a);
+        return normal.dot(normals_.normals[old]) > kLeastNormalCosine * normal.norm() && vsplit::stretch(a, b, c) > stretch_;
+    }
+
+    /// The half-edges that leave the origin of h; empty on a boundary.
+    [[nodiscard]] std::vector<HalfEdge> corners_around(HalfEdge h) const {
+        std::vector<HalfEdge> corners;
+        HalfEdge corner = h;
+        do {
+            corners.push_back(corner);
+            corner = marks_.twin(prev(corner));
+            if (corner == kNone) return {};
+        } while (corner != h);
+        return corners;
+    }
+
+    [[nodiscard]] bool joined(HalfEdge h, std::uint32_t to) const {
+        const std::vector<HalfEdge> corners = corners_around(h);
+        return std::any_of(corners.begin(), corners.end(), [&](HalfEdge corner) { return origin(mesh_, next(corner)) == to; });
+    }
+
+    /// A vertex of a crease goes along that crease only, a corner not at all.
+    [[nodiscard]] bool keeps_creases(const std::vector<HalfEdge>& corners, HalfEdge h) const {
+        const auto creases = std::count_if(corners.begin(), corners.end(), [&](HalfEdge c) { return marks_.marked(c); });
+        return creases == 0 || (creases == 2 && marks_.marked(h));
+    }
+
+    /// The link condition: both ends share two neighbours.
+    [[nodiscard]] bool keeps_topology(const std::vector<HalfEdge>& corners, HalfEdge h) const {
+        const std::vector<HalfEdge> others = corners_around(next(h));
+        std::vector<std::uint32_t> neighbours;
+        for (const HalfEdge corner : others) neighbours.push_back(origin(mesh_, next(corner)));
+        const auto shared = std::count_if(corners.begin(), corners.end(), [&](HalfEdge corner) {
+            return std::find(neighbours.begin(), neighbours.end(), origin(mesh_, next(corner))) != neighbours.end();
+        });
+        return shared == 2 && corners.size() > 3 && !others.empty();
+    }
+
+    static double distance_to(const Vec3& p, const std::vector<TriangleShape>& faces) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const TriangleShape& face : faces) least = std::min(least, face.closest(p).squared_distance);
+        return std::sqrt(least);
+    }
+
+    static double distance_between(const Vec3& gone, const std::vector<TriangleShape>& before,
+                                   const std::vector<TriangleShape>& after) {
+        const auto centroid = [](const TriangleShape& t) { return Vec3((t.corners[0] + t.corners[1] + t.corners[2]) / 3); };
+        double most = distance_to(gone, after);
+        for (const TriangleShape& face : before) most = std::max(most, distance_to(centroid(face), after));
+        for (const TriangleShape& face : after) most = std::max(most, distance_to(centroid(face), before));
+        return most;
+    }
+
+    const TriangleMesh& mesh_;
+    const CreaseMarks& marks_;
+    const FaceNormals& normals_;
+    double stretch_;  // of the sliver
+};
+
+}  // namespace
+
+std::optional<double> least_mend(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals,
+                                 const SliverFace& face) {
+    const Mender mender(mesh, marks, normals, face.stretch);
+    std::optional<double> least = mender.flip(face.longest);
+    const auto take = [&](const std::optional<double>& moved) {
+        if (moved && (!least || *moved < *least)) least = moved;
+    };
+    take(mender.collapse(face.shortest));
+    if (marks.twin(face.shortest) != kNone) take(mender.collapse(marks.twin(face.shortest)));
+    return least;
+}
+
+}  // namespace vsplit
