@@ -7,6 +7,7 @@
 
 #include "base/thread_limit.h"
 #include "method/run_policy.h"
+#include "subdivide/frozen_boundary.h"
 #include "vsplit/mesh/inspect.h"
 
 namespace vsplit {
@@ -66,6 +67,7 @@ ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& o
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
     used.faces = options.faces ? *options.faces : std::max(default_faces(mesh, used), options.faces_min.value_or(4));
     used.faces_min = options.faces_min.value_or(kLeastFaces);
+    used.freeze_boundary = options.freeze_boundary.value_or(false);
     return used;
 }
 
@@ -76,14 +78,18 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     const auto start = std::chrono::steady_clock::now();
     if (Status valid = check_options(options); !valid) return valid.error();
     context.report({"inspect", 0, mesh.face_count()});
-    if (Status closed = require_closed_manifold(inspect(mesh)); !closed) return closed.error();
+    const MeshReport report = inspect(mesh);
+    if (Status manifold = require_manifold(report); !manifold) return manifold.error();
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
     ImproveOptions used = default_options(mesh, options, limits);
 
-    Expected<SubdividedMesh> subdivided = subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
+    const bool frozen = *used.freeze_boundary && !report.closed;
+    Expected<SubdividedMesh> subdivided =
+        frozen ? subdivide_to_size_inside(mesh, *used.subdivision_size, limits.max_faces, context)
+               : subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
     const bool extended = used.mode == Mode::kExtended;
-    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces},
+    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces, frozen, report.closed},
                         extended,
                         used.max_deviation.value_or(0),
                         options.max_deviation};

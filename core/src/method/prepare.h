@@ -14,9 +14,11 @@ struct PrepareOptions {
     double tolerance = 0;
     std::uint32_t faces_min = 0;
     std::uint32_t faces = 0;
+    bool freeze_boundary = false;
+    bool closed = false;  ///< the source is known to have no boundary, so none is looked for
 };
 
-/// Normals, creases and quadrics of a subdivided mesh. Normals are those of the source's faces: subdivision does not change the
+/// Normals, creases and quadrics of a subdivided mesh, whose boundaries are then closed by ghosts. Normals are those of the source's faces: subdivision does not change the
 /// surface, but slivers cut small no longer show where they look. O(faces).
 [[nodiscard]] SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options);
 

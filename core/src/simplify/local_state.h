@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "simplify/border.h"
 #include "simplify/simplify.h"
 
 namespace vsplit {
@@ -17,6 +18,7 @@ struct alignas(32) FaceState {
 struct LocalState {
     std::vector<FaceState> faces;
     std::vector<Quadric> quadrics;
+    Border border;
 };
 
 /// The state before the first collapse. O(faces).

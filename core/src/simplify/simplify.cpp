@@ -47,7 +47,7 @@ public:
         : input_(std::move(input)),
           policy_(policy),
           context_(context),
-          mesh_(input_.mesh),
+          mesh_(input_.mesh, input_.ghosts),
           state_(initial_state(input_)),
           queue_(mesh_.half_edge_count()),
           out_of_reach_(mesh_.half_edge_count(), 0),
@@ -62,13 +62,14 @@ public:
         input_.normals = {};
         input_.quadrics = {};
         input_.creases = {};
+        input_.boundary_corners = {};
     }
 
     [[nodiscard]] Expected<MultiresMesh> run() {
         Status done = Policy::kExtended ? collapse_and_polish() : collapse_in_phases(input_.faces_min);
         if (!done) return done.error();
         context_.report({"simplify", 1, mesh_.live_faces()});
-        return log_.build(mesh_);
+        return log_.build(mesh_, input_.ghosts);
     }
 
 private:
@@ -84,7 +85,7 @@ private:
     [[nodiscard]] std::unique_ptr<DeviationGuard> make_guard() const {
         if (!input_.source) return nullptr;
         return std::make_unique<DeviationGuard>(mesh_, *input_.source, input_.max_deviation,
-                                                kPointsAFace * std::min(input_.faces, mesh_.live_faces()));
+                                                kPointsAFace * std::min(input_.faces, mesh_.live_faces()), state_.border);
     }
 
     void mark_creases() {
@@ -189,15 +190,16 @@ private:
         const EdgeStar star = mesh_.star(edge);
         // The fan belongs to the edge evaluated last; this one's is made again, for its place and its faces.
         const Evaluation evaluation = evaluator_.evaluate(edge);
-        if (guard_ &&
-            !replacement_.try_on(*guard_, evaluator_.fan(), evaluation.position, {face_of(star.ij), face_of(star.ji)})) {
+        const std::uint32_t kept = mesh_.origin(star.ij), removed = mesh_.origin(star.ji);
+        if (guard_ && !replacement_.try_on(*guard_, evaluator_.fan(), evaluation.position,
+                                           {face_of(star.ij), face_of(star.ji)}, {kept, removed})) {
             ++refusals_[edge];
             return drop(edge);  // until its neighbourhood changes
         }
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
         log_.record(mesh_, star);
-        const std::uint32_t kept = mesh_.origin(star.ij);
-        state_.quadrics[kept] += state_.quadrics[mesh_.origin(star.ji)];
+        state_.quadrics[kept] += state_.quadrics[removed];
+        state_.border.join(kept, removed);
         mesh_.collapse(star, evaluation.position);
         update_faces();
         if constexpr (Policy::kExtended) flip_around(kept);
@@ -228,8 +230,8 @@ private:
     void update_faces() {
         const Fan& fan = evaluator_.fan();
         ring_.clear();
+        for (std::size_t t = 0; t < fan.ring_size(); ++t) ring_.push_back(fan.vertex(t));
         for (std::size_t t = 0; t < fan.size(); ++t) {
-            ring_.push_back(fan.vertex(t));
             state_.faces[fan.face(t)] = {fan.normal(t), fan.stretch(t), fan.face_size(t)};
         }
     }
