@@ -26,9 +26,10 @@ Status check_subdivision(const TriangleMesh& mesh, double max_edge, std::uint32_
 }
 
 Error too_many_faces(double max_edge, std::uint32_t face_limit, double fitting) {
+    constexpr double kRoundedUp = 1 + 1e-5;  // six digits are written, which must not be too few
     return {Cause::kLimitExceeded,
             "subdividing to edges of " + number_text(max_edge) + " makes more than " + std::to_string(face_limit) +
-                " faces, the limit; a subdivision size of " + number_text(fitting) + " fits",
+                " faces, the limit; a subdivision size of " + number_text(kRoundedUp * fitting) + " fits",
             "subdivision_size"};
 }
 
