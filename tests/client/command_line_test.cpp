@@ -276,7 +276,7 @@ TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
         {{"control", cube, "--max-valence", "5"}, "(--max-valence)"},
         {{"control", cube, "--subdivisions", "13"}, "(--subdivisions)"},
         {{"info", cube, "--weld", "-1"}, "(--weld)"},
-        {{"improve", touching}, "NON_MANIFOLD: the boundary touches itself at vertex 4"},
+        {{"improve", touching}, "NON_MANIFOLD: the boundary touches itself at vertex 3"},  // unused ones are dropped
         {{"improve", file("none.stl")}, "NOT_FOUND"},
         {{"info", file("none.vsplit")}, "NOT_FOUND"},
         {{"info", directory_.path().string()}, "FILE_ACCESS"},

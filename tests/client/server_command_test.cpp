@@ -173,7 +173,7 @@ TEST_F(ServerCommandTest, ErrorsOfTheServerKeepTheirCause) {
     const std::string touching = mesh_file("touching.obj", touching_mesh);
     const std::string broken = test::data_file("broken/stl_says_4_billion_faces.stl").string();
     const std::vector<std::pair<std::vector<std::string>, std::string>> refusals{
-        {{"improve", touching}, "NON_MANIFOLD: the boundary touches itself at vertex 4"},
+        {{"improve", touching}, "NON_MANIFOLD: the boundary touches itself at vertex 3"},  // unused ones are dropped
         {{"info", broken}, "TRUNCATED_INPUT"},
         {{"info", file("none.stl")}, "NOT_FOUND"},
         {{"info", "--session", "nobody"}, "(--session)"},

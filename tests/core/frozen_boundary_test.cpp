@@ -33,8 +33,8 @@ TriangleMesh ragged_strip(std::uint64_t seed) {
 }
 
 std::vector<TriangleMesh> meshes() {
-    return {square(1), square(3), holed_square(8, 2), open_cylinder(12, 1), hemisphere(16, 3), ragged_strip(1), ragged_strip(2),
-            joined(square(1), cube(), Vec3(3, 0, 0))};
+    return {square(1),         square(3),       holed_square(8, 2), open_cylinder(12, 1),
+            hemisphere(16, 3), ragged_strip(1), ragged_strip(2),    joined(square(1), cube(), Vec3(3, 0, 0))};
 }
 
 /// Boundary edges by the numbers of their vertices, which subdivision keeps.
@@ -129,7 +129,8 @@ TEST(FrozenBoundaryTest, GoodFacesStayGoodHoweverOften) {
 TEST(FrozenBoundaryTest, AClosedMeshIsSubdividedAsAlways) {
     const ExecutionContext context;
     EXPECT_EQ(subdivide_to_size_inside(cube(), 0.3, kMany, context)->mesh, subdivide_to_size(cube(), 0.3, kMany, context)->mesh);
-    EXPECT_EQ(subdivide_one_to_four_inside(cube(), 2, kMany, context)->mesh, subdivide_one_to_four(cube(), 2, kMany, context)->mesh);
+    EXPECT_EQ(subdivide_one_to_four_inside(cube(), 2, kMany, context)->mesh,
+              subdivide_one_to_four(cube(), 2, kMany, context)->mesh);
 }
 
 TEST(FrozenBoundaryTest, TooManyFacesAreRefusedWithASizeThatFits) {

@@ -45,7 +45,8 @@ std::vector<Sheet> sheets() {
         {"cylinder", open_cylinder(48, 6), 0.12, 1, 500},
         {"hemisphere", hemisphere(40, 10), 0.1, 1, 700},
         {"pierced_torus", punctured(torus(36, 16), {0, 100, 250, 400}), 0.12, 1, 1200},
-        {"closed_and_open", joined(joined(icosphere(2), holed_square(6, 1), Vec3(3, 0, 0)), square(1), Vec3(0, 0, 5)), 0.3, 1, 500},
+        {"closed_and_open", joined(joined(icosphere(2), holed_square(6, 1), Vec3(3, 0, 0)), square(1), Vec3(0, 0, 5)), 0.3, 1,
+         500},
     };
 }
 
@@ -200,7 +201,8 @@ TEST_P(OpenBoundary, TheBoundaryStaysOnTheSourcesBothWays) {
 TEST_P(OpenBoundary, AFrozenBoundaryIsTheSourcesBitForBitAtEveryLevel) {
     const MethodResult result = run(GetParam(), {.frozen = true});
     const auto wanted = placed_boundary(source_);
-    for (const std::size_t level : some_levels(result.mrr)) EXPECT_EQ(placed_boundary(mesh_at(result.mrr, level)), wanted) << level;
+    for (const std::size_t level : some_levels(result.mrr))
+        EXPECT_EQ(placed_boundary(mesh_at(result.mrr, level)), wanted) << level;
     EXPECT_LT(result.mrr.faces_min(), result.mrr.faces_max());
     EXPECT_NE(placed_boundary(mesh_at(run(GetParam()).mrr, 0)), wanted) << "else nothing was held";
 }
@@ -377,7 +379,8 @@ TEST(OpenBoundaryTest, RealMeshesKeepTheirTopology) {
         if (!require_manifold(inspect(source))) continue;
         const ExecutionContext context;
         for (const Mode mode : {Mode::kStrict, Mode::kExtended}) {
-            const auto result = control(source, {.subdivisions = 0, .faces = source.face_count() / 10, .mode = mode}, {}, context);
+            const auto result =
+                control(source, {.subdivisions = 0, .faces = source.face_count() / 10, .mode = mode}, {}, context);
             ASSERT_TRUE(result) << name << ": " << result.error().message;
             for (const std::size_t level : {std::size_t{0}, result->mrr.level_for(result->faces), result->mrr.levels()}) {
                 EXPECT_EQ(topology(mesh_at(result->mrr, level)), topology(source)) << name << " at " << level;

@@ -181,8 +181,8 @@ std::pair<int, int> expect_papers_priorities(const TriangleMesh& source) {
         const Evaluation controlled = controlling.evaluate(h);
         if (controlled.verdict != Evaluation::Verdict::kValid) continue;
         const ByHand hand = by_hand(mesh, i, j, controlled.position);
-        const double rho =
-            hand.inverse_size_before * policy.max_size * hand.min_after * hand.sum_after / (2 * std::max(hand.faces_after - 1, 1.0));
+        const double rho = hand.inverse_size_before * policy.max_size * hand.min_after * hand.sum_after /
+                           (2 * std::max(hand.faces_after - 1, 1.0));
         EXPECT_NEAR(controlled.priority, rho, 1e-9 * rho);
     }
     return valid;

@@ -84,9 +84,9 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     ImproveOptions used = default_options(mesh, options, limits);
 
     const bool frozen = *used.freeze_boundary && !report.closed;
-    Expected<SubdividedMesh> subdivided =
-        frozen ? subdivide_to_size_inside(mesh, *used.subdivision_size, limits.max_faces, context)
-               : subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
+    Expected<SubdividedMesh> subdivided = frozen
+                                              ? subdivide_to_size_inside(mesh, *used.subdivision_size, limits.max_faces, context)
+                                              : subdivide_to_size(mesh, *used.subdivision_size, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
     const bool extended = used.mode == Mode::kExtended;
     const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces, frozen, report.closed},

@@ -89,8 +89,7 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
     input.creases = creases_on(subdivided, source, find_creases(source, source_normals, options.features));
     if (!options.closed) {
         input.creases = with_heavy_boundary(std::move(input.creases), subdivided.mesh);
-        input.boundary_corners =
-            boundary_corners(subdivided.mesh, {options.features.angle, kCornerReach * options.tolerance});
+        input.boundary_corners = boundary_corners(subdivided.mesh, {options.features.angle, kCornerReach * options.tolerance});
         input.freeze_boundary = options.freeze_boundary;
     }
     input.quadrics = vertex_quadrics(subdivided.mesh, normals, input.creases, input.centre);
@@ -119,7 +118,8 @@ bool has_needles(const TriangleMesh& mesh) {
 }  // namespace
 
 void guard(SimplifyInput& input, const TriangleMesh& source, double distance) {
-    input.source = std::make_shared<const SurfaceIndex>(surface_index(has_needles(source) ? visible_mesh(input.mesh, input.ghosts) : source));
+    input.source = std::make_shared<const SurfaceIndex>(
+        surface_index(has_needles(source) ? visible_mesh(input.mesh, input.ghosts) : source));
     input.max_deviation = distance;
 }
 

@@ -18,8 +18,8 @@ struct PrepareOptions {
     bool closed = false;  ///< the source is known to have no boundary, so none is looked for
 };
 
-/// Normals, creases and quadrics of a subdivided mesh, whose boundaries are then closed by ghosts. Normals are those of the source's faces: subdivision does not change the
-/// surface, but slivers cut small no longer show where they look. O(faces).
+/// Normals, creases and quadrics of a subdivided mesh, whose boundaries are then closed by ghosts. Normals are those of the
+/// source's faces: subdivision does not change the surface, but slivers cut small no longer show where they look. O(faces).
 [[nodiscard]] SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options);
 
 /// Fills in `tolerance` and, in the extended mode, `max_deviation`: either follows from the other where that is given.

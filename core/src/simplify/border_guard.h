@@ -13,8 +13,8 @@ namespace vsplit {
 /// Keeps open boundaries within a distance of the source's, and those within it of them, as DeviationGuard keeps surfaces: by
 /// the surface alone a boundary might leave a notch or a slit that is narrower than twice the limit.
 ///
-/// Points of the source, the dense mesh's vertices on boundaries, are kept at the edge of the boundary that is near; new edges are
-/// tried at their ends, quarters and middle.
+/// Points of the source, the dense mesh's vertices on boundaries, are kept at the edge of the boundary that is near; new edges
+/// are tried at their ends, quarters and middle.
 class BorderGuard {
 public:
     /// The vertices that a step makes one: the one that stays, and the one that goes or kNone for a move.

@@ -229,7 +229,7 @@ private:
     Evaluation valid_;
     double error_limit_ = 0;  // of the edge at hand
     double evenness_ = 1;
-    std::uint32_t ghost_ = kNone;           // of the boundary that an end of the edge lies on
+    std::uint32_t ghost_ = kNone;   // of the boundary that an end of the edge lies on
     std::array<int, 2> creases_{};  // edges at either end that are creases; extended mode only
 };
 

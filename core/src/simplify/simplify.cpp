@@ -191,8 +191,8 @@ private:
         // The fan belongs to the edge evaluated last; this one's is made again, for its place and its faces.
         const Evaluation evaluation = evaluator_.evaluate(edge);
         const std::uint32_t kept = mesh_.origin(star.ij), removed = mesh_.origin(star.ji);
-        if (guard_ && !replacement_.try_on(*guard_, evaluator_.fan(), evaluation.position,
-                                           {face_of(star.ij), face_of(star.ji)}, {kept, removed})) {
+        if (guard_ && !replacement_.try_on(*guard_, evaluator_.fan(), evaluation.position, {face_of(star.ij), face_of(star.ji)},
+                                           {kept, removed})) {
             ++refusals_[edge];
             return drop(edge);  // until its neighbourhood changes
         }

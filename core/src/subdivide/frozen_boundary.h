@@ -12,8 +12,8 @@ namespace vsplit {
 /// face of small edges at it, so edges near it may be longer: max(max_edge, L - 0.5 * distance along edges).
 ///
 /// Stage "subdivide". \pre `mesh` is manifold. \return as subdivide_to_size. O(result + source faces * log).
-[[nodiscard]] Expected<SubdividedMesh> subdivide_to_size_inside(const TriangleMesh& mesh, double max_edge, std::uint32_t face_limit,
-                                                                const ExecutionContext& context);
+[[nodiscard]] Expected<SubdividedMesh> subdivide_to_size_inside(const TriangleMesh& mesh, double max_edge,
+                                                                std::uint32_t face_limit, const ExecutionContext& context);
 
 /// As subdivide_one_to_four, but edges of an open boundary are never split, nor those near them that are short for them already.
 ///

@@ -47,7 +47,7 @@ struct MeshReport {
     std::uint32_t inconsistent_edges = 0;
     std::uint32_t non_manifold_vertices = 0;
     std::vector<std::uint32_t> boundary_touches;  ///< the first kExamples of those at which the boundary touches itself
-    std::uint32_t degenerate_faces = 0;  ///< stretch under 1e-9
+    std::uint32_t degenerate_faces = 0;           ///< stretch under 1e-9
     std::uint32_t duplicate_faces = 0;
     BoundingBox box;
     Quality quality;

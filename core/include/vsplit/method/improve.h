@@ -19,7 +19,8 @@ namespace vsplit {
 ///
 /// Stages: "inspect", "subdivide", "evaluate", "simplify", and "measure" in EXTENDED. The same input and options give the same
 /// bits for any thread count. Open boundaries and components are kept, see docs/method.md.
-/// \return EMPTY_INPUT or NON_MANIFOLD for a mesh that is no 2-manifold, such as one whose boundary touches itself; INVALID_OPTION, UNSUPPORTED,
+/// \return EMPTY_INPUT or NON_MANIFOLD for a mesh that is no 2-manifold, such as one whose boundary touches itself;
+/// INVALID_OPTION, UNSUPPORTED,
 ///         LIMIT_EXCEEDED, CANCELLED.
 /// Complexity: O(n log n) in the faces after subdivision, for bounded valence. Memory: about 250 bytes a face.
 [[nodiscard]] Expected<MethodResult> improve(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
