@@ -35,6 +35,7 @@ void set_common(const Options& options, Proto& proto) {
     add_elements(options.marked_edges, *proto.mutable_marked_edges());
     add_elements(options.regions, *proto.mutable_regions());
     if (options.sizing) *proto.mutable_sizing() = to_proto(*options.sizing);
+    if (options.freeze_boundary) proto.set_freeze_boundary(*options.freeze_boundary);
 }
 
 /// What both methods' options share, into core.
@@ -55,6 +56,7 @@ Status get_common(const Proto& proto, Options& options) {
     options.marked_edges.assign(proto.marked_edges().begin(), proto.marked_edges().end());
     options.regions.assign(proto.regions().begin(), proto.regions().end());
     if (proto.has_sizing()) options.sizing = from_proto(proto.sizing());
+    if (proto.has_freeze_boundary()) options.freeze_boundary = proto.freeze_boundary();
     return Done{};
 }
 

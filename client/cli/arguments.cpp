@@ -203,6 +203,9 @@ void add_method(CLI::App& verb, Arguments& a, Options& o, const char* default_fa
         [&o](FeatureDetection detection) { o.feature_detection = detection; },
         "dihedral|normal-voting: creases by the angle at an edge, or by the normals around it, for noisy scans. Default dihedral")
         ->type_name("D");
+    verb.add_flag_callback(
+        "--freeze-boundary", [&o] { o.freeze_boundary = true; },
+        "Keep open boundaries exactly, vertices and edges, at every resolution. Without it they are kept within the tolerance");
     add_choice<Mode>(
         verb, "--mode", {{"strict", Mode::kStrict}, {"extended", Mode::kExtended}}, [&o](Mode mode) { o.mode = mode; },
         "strict|extended: strict is the paper's method alone; extended adds flips and moves, keeps creases apart and bounds the "
@@ -243,7 +246,7 @@ void add_quality(CLI::App& app, Arguments& a) {
 
 void add_improve(CLI::App& app, Arguments& a) {
     CLI::App& verb = *app.add_subcommand("improve", "Improve the shape of the faces within a tolerance of the surface");
-    add_input(verb, a, "Closed mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
+    add_input(verb, a, "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
     verb.add_option("--subdivide", a.improve.subdivision_size,
                     "Split edges until none is longer (the paper's sigma_SZ); length > 0. Default the mean edge of --faces, or "
                     "1.5 % of the "
@@ -259,7 +262,7 @@ void add_improve(CLI::App& app, Arguments& a) {
 void add_control(CLI::App& app, Arguments& a) {
     CLI::App& verb =
         *app.add_subcommand("control", "Bring stretch, size and valence within bounds; for meshes that were improved");
-    add_input(verb, a, "Closed mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
+    add_input(verb, a, "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
     verb.add_option("--subdivisions", a.control.subdivisions, "One-to-four subdivisions first; 0 to 12. Default 1")
         ->check(whole_number())
         ->type_name("n");

@@ -23,6 +23,7 @@ std::string option_of(const std::string& field) {
                                                                       {"max_size", "--max-size"},
                                                                       {"max_valence", "--max-valence"},
                                                                       {"feature_detection", "--feature-detection"},
+                                                                      {"freeze_boundary", "--freeze-boundary"},
                                                                       {"sizing.spheres", "--size-sphere"},
                                                                       {"sizing.boxes", "--size-box"},
                                                                       {"sizing.chord_error", "--chord-error"},

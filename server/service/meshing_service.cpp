@@ -65,7 +65,7 @@ Expected<RunningMethod> MeshingService::start(std::string_view session, const Me
     const auto make = [&](const SessionSnapshot& now) -> Expected<std::shared_ptr<Job>> {
         Expected<PickedMesh> source = PickedMesh::pick(now, request.source);
         if (!source) return source.error();
-        if (Status closed = source->require_closed(); !closed) return closed.error();
+        if (Status accepted = source->require_accepted(); !accepted) return accepted.error();
         return std::shared_ptr<Job>(
             std::make_shared<MethodJob>(*found, *std::move(source), request.options, options_, std::move(events)));
     };

@@ -45,7 +45,7 @@ public:
     [[nodiscard]] Expected<Upload> begin_upload(std::string_view session, const UploadSettings& settings);
 
     /// Queues a method. `events` hear of it from now on, perhaps before this returns.
-    /// \return NOT_FOUND, NOT_READY, LIMIT_EXCEEDED, what `check_options` and `require_closed_manifold` return; no event then.
+    /// \return NOT_FOUND, NOT_READY, LIMIT_EXCEEDED, what `check_options` and `require_manifold` return; no event then.
     [[nodiscard]] Expected<RunningMethod> start(std::string_view session, const MethodRequest& request, JobEvents events);
 
     /// Runs something heavy for a reader, on a thread of its own kind: no method and no mesh that comes in keeps it waiting.

@@ -53,8 +53,8 @@ std::uint32_t PickedMesh::faces() const {
     return upload_ ? upload_->mesh->face_count() : representation_->mrr().faces_at(level_);
 }
 
-Status PickedMesh::require_closed() const {
-    if (upload_) return require_closed_manifold(upload_->report);
+Status PickedMesh::require_accepted() const {
+    if (upload_) return require_manifold(upload_->report);
     return Done{};
 }
 

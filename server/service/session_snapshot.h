@@ -44,8 +44,8 @@ public:
 
     [[nodiscard]] std::uint32_t faces() const;
 
-    /// Whether the methods take it. \return what `require_closed_manifold` returns. O(1).
-    [[nodiscard]] Status require_closed() const;
+    /// Whether the methods take it. \return what `require_manifold` returns. O(1).
+    [[nodiscard]] Status require_accepted() const;
 
     /// Heavy unless it is the upload or cached: O(level).
     [[nodiscard]] std::shared_ptr<const TriangleMesh> mesh() const;

@@ -113,6 +113,12 @@ TEST(ArgumentsTest, ReadsFeatureDetectionAndSizes) {
     EXPECT_EQ(arguments({"control", "a.stl", "--min-size", "2"}).control.sizing->gradation, kDefaultGradation);
 }
 
+TEST(ArgumentsTest, ReadsFreezeBoundary) {
+    EXPECT_EQ(arguments({"improve", "a.stl", "--freeze-boundary"}).improve.freeze_boundary, true);
+    EXPECT_EQ(arguments({"control", "a.stl", "--freeze-boundary"}).control.freeze_boundary, true);
+    EXPECT_FALSE(arguments({"improve", "a.stl"}).improve.freeze_boundary);
+}
+
 TEST(ArgumentsTest, RefusesShapesThatAreNone) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "--size-sphere", "1,2,3,4"})), 1);

@@ -19,6 +19,7 @@
 #include "tests/core/meshes.h"
 #include "vsplit/io/read_mesh.h"
 #include "vsplit/io/write_mesh.h"
+#include "vsplit/mesh/inspect.h"
 #include "vsplit/mrr/mrr_file.h"
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/v1/meshing.pb.h"
@@ -269,9 +270,9 @@ struct Refusal {
 
 TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
     const std::string cube = mesh_file("cube.obj", test::cube());
-    TriangleMesh open_mesh = test::cube();
-    open_mesh.faces.pop_back();
-    const std::string open = mesh_file("open.obj", open_mesh);
+    TriangleMesh touching_mesh = test::square(2);
+    touching_mesh.faces = {{0, 1, 4}, {0, 4, 3}, {4, 5, 8}, {4, 8, 7}};
+    const std::string touching = mesh_file("touching.obj", touching_mesh);
     const std::vector<Refusal> refusals{
         {{"improve", cube, "--tolerance", "-1"}, "INVALID_OPTION: tolerance is -1"},
         {{"improve", cube, "--tolerance", "nan"}, "(--tolerance)"},
@@ -290,7 +291,7 @@ TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
         {{"control", cube, "--max-valence", "5"}, "(--max-valence)"},
         {{"control", cube, "--subdivisions", "13"}, "(--subdivisions)"},
         {{"info", cube, "--weld", "-1"}, "(--weld)"},
-        {{"improve", open}, "OPEN_MESH"},
+        {{"improve", touching}, "NON_MANIFOLD: the boundary touches itself at vertex 3"},  // unused ones are dropped
         {{"improve", file("none.stl")}, "NOT_FOUND"},
         {{"info", file("none.vsplit")}, "NOT_FOUND"},
         {{"info", directory_.path().string()}, "FILE_ACCESS"},
@@ -351,6 +352,27 @@ TEST_F(CommandLineTest, FeatureDetectionIsUsedAndReported) {
     const auto made = json_of<v1::Representation>(
         run({"improve", frame, "--subdivide", "0.3", "--feature-detection", "normal-voting", "--json"}));
     EXPECT_EQ(made.improve_options().feature_detection(), v1::NORMAL_VOTING);
+}
+
+TEST_F(CommandLineTest, AnOpenMeshGoesToAFileAndBackAtEveryResolution) {
+    const TriangleMesh source = test::holed_square(8, 2);
+    const std::string open = mesh_file("open.ply", source);
+    const auto made = json_of<v1::Representation>(
+        run({"improve", open, "--subdivide", "0.5", "--faces", "300", "--freeze-boundary", "-o", file("open.vsplit"), "--json"}));
+    EXPECT_TRUE(made.improve_options().freeze_boundary());
+    for (const std::uint32_t faces : {made.faces_min(), made.faces(), made.faces_max()}) {
+        const CommandResult told =
+            run({"resolution", file("open.vsplit"), "--faces", std::to_string(faces), "-o", file("at.ply"), "--json"});
+        ASSERT_EQ(told.exit_status, 0) << told.err;
+        const auto read = read_mesh_file(file("at.ply"), {});
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(read->mesh.face_count(), faces);
+        const MeshReport report = inspect(read->mesh);
+        EXPECT_FALSE(report.closed);
+        EXPECT_EQ(report.boundary_edges, 40U) << "each edge of it as it was";
+        EXPECT_NEAR(surface_area(read->mesh), surface_area(source), 1e-4) << "coordinates are floats";
+    }
+    EXPECT_FALSE(json_of<v1::Representation>(run({"control", open, "--json"})).control_options().freeze_boundary());
 }
 
 TEST_F(CommandLineTest, BrokenFilesAreRefusedNotFollowed) {

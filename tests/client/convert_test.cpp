@@ -76,6 +76,7 @@ ImproveOptions full_improve_options() {
     sizing.gradation = 0.75;
     sizing.min_size = 0.125;
     sizing.max_size = 100;
+    options.freeze_boundary = true;
     return options;
 }
 
@@ -114,6 +115,7 @@ TEST(ConvertTest, ImproveOptionsSurviveTheWay) {
     EXPECT_EQ(back->feature_detection, options.feature_detection);
     EXPECT_EQ(back->marked_edges, options.marked_edges);
     EXPECT_EQ(back->regions, options.regions);
+    EXPECT_EQ(back->freeze_boundary, options.freeze_boundary);
     ASSERT_TRUE(back->sizing);
     expect_same(*back->sizing, *options.sizing);
 }
@@ -129,6 +131,7 @@ TEST(ConvertTest, ControlOptionsSurviveTheWay) {
     options.feature_detection = FeatureDetection::kDihedral;
     options.regions = {1, 2};
     options.sizing.emplace().chord_error = 0.5;
+    options.freeze_boundary = false;
     const Expected<ControlOptions> back = from_proto(to_proto(options));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->subdivisions, options.subdivisions);
@@ -140,6 +143,7 @@ TEST(ConvertTest, ControlOptionsSurviveTheWay) {
     EXPECT_EQ(back->feature_detection, options.feature_detection);
     EXPECT_EQ(back->regions, options.regions);
     EXPECT_TRUE(back->marked_edges.empty());
+    EXPECT_EQ(back->freeze_boundary, false);
     ASSERT_TRUE(back->sizing);
     expect_same(*back->sizing, *options.sizing);
     EXPECT_FALSE(back->faces || back->faces_min || back->max_deviation || back->feature_angle || back->feature_weight);
@@ -149,7 +153,7 @@ TEST(ConvertTest, AbsentOptionsStayAbsentAndZeroDoesNot) {
     const Expected<ImproveOptions> empty = from_proto(v1::ImproveOptions());
     ASSERT_TRUE(empty);
     EXPECT_FALSE(empty->subdivision_size || empty->tolerance || empty->faces || empty->mode);
-    EXPECT_FALSE(empty->feature_detection || empty->sizing);
+    EXPECT_FALSE(empty->feature_detection || empty->sizing || empty->freeze_boundary);
     EXPECT_TRUE(empty->marked_edges.empty() && empty->regions.empty());
     v1::ImproveOptions bare;
     bare.mutable_sizing();

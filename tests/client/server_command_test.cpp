@@ -168,16 +168,16 @@ TEST_F(ServerCommandTest, AStoredRepresentationIsUploadedAtItsResolution) {
 }
 
 TEST_F(ServerCommandTest, ErrorsOfTheServerKeepTheirCause) {
-    TriangleMesh open_mesh = test::cube();
-    open_mesh.faces.pop_back();
-    const std::string open = mesh_file("open.obj", open_mesh);
+    TriangleMesh touching_mesh = test::square(2);
+    touching_mesh.faces = {{0, 1, 4}, {0, 4, 3}, {4, 5, 8}, {4, 8, 7}};
+    const std::string touching = mesh_file("touching.obj", touching_mesh);
     const std::string broken = test::data_file("broken/stl_says_4_billion_faces.stl").string();
     const std::vector<std::pair<std::vector<std::string>, std::string>> refusals{
-        {{"improve", open}, "OPEN_MESH"},
+        {{"improve", touching}, "NON_MANIFOLD: the boundary touches itself at vertex 3"},  // unused ones are dropped
         {{"info", broken}, "TRUNCATED_INPUT"},
         {{"info", file("none.stl")}, "NOT_FOUND"},
         {{"info", "--session", "nobody"}, "(--session)"},
-        {{"improve", open, "--subdivide", "-1"}, "(--subdivide)"},
+        {{"improve", touching, "--subdivide", "-1"}, "(--subdivide)"},
         {{"improve", mesh_file("cube.obj", test::cube()), "--subdivide", "1e-5"}, "LIMIT_EXCEEDED"},
     };
     for (const auto& [words, said] : refusals) {

@@ -143,9 +143,10 @@ TEST(ImproveTest, RefusesWhatItCannotDoAndSaysWhy) {
         EXPECT_FALSE(result.error().message.empty());
         return result.error().cause;
     };
-    TriangleMesh open = test::cube();
-    open.faces.pop_back();
-    EXPECT_EQ(cause(open, {}, ""), Cause::kOpenMesh);
+    TriangleMesh fin = test::cube();
+    fin.positions.emplace_back(0.5, 0.5, 9);
+    fin.faces.push_back({fin.faces[0][0], fin.faces[0][1], 8});
+    EXPECT_EQ(cause(fin, {}, ""), Cause::kNonManifold);
     EXPECT_EQ(cause({}, {}, ""), Cause::kEmptyInput);
     const TriangleMesh mesh = test::cube();
     const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -84,6 +84,25 @@ TEST(InspectTest, SeesTwoFansAtAVertex) {
     EXPECT_EQ(require_closed_manifold(report).error().cause, Cause::kNonManifold);
 }
 
+TEST(InspectTest, TellsABoundaryThatTouchesItselfFromOtherVerticesOfTwoFans) {
+    TriangleMesh touching = test::square(2);
+    touching.faces = {{0, 1, 4}, {0, 4, 3}, {4, 5, 8}, {4, 8, 7}};
+    const MeshReport report = inspect(touching);
+    EXPECT_EQ(report.boundary_touches, std::vector<std::uint32_t>{4});
+    const Status refused = require_manifold(report);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().cause, Cause::kNonManifold);
+    EXPECT_NE(refused.error().message.find("touches itself at vertex 4; accepted is"), std::string::npos)
+        << refused.error().message;
+
+    TriangleMesh body_on_sheet = test::joined(test::square(2), test::tetrahedron(), Vec3(0, 0, 5));
+    for (Triangle& t : body_on_sheet.faces) std::replace(t.begin(), t.end(), 9U, 0U);  // a corner of the sheet: one open fan
+    EXPECT_EQ(inspect(body_on_sheet).non_manifold_vertices, 1U);
+    EXPECT_TRUE(inspect(body_on_sheet).boundary_touches.empty());
+    EXPECT_EQ(require_manifold(inspect(body_on_sheet)).error().cause, Cause::kNonManifold);
+    EXPECT_TRUE(require_manifold(inspect(test::square(2))));
+}
+
 TEST(InspectTest, CountsDegenerateAndDuplicateFaces) {
     TriangleMesh mesh = test::cube();
     mesh.faces.push_back(mesh.faces[4]);

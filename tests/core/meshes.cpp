@@ -252,6 +252,50 @@ TriangleMesh square(std::uint32_t cells) {
     return mesh;
 }
 
+TriangleMesh holed_square(std::uint32_t cells, std::uint32_t holes) {
+    TriangleMesh mesh = square(cells);
+    TriangleMesh holed{mesh.positions, {}};
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const std::uint32_t x = f / 2 % cells, y = f / 2 / cells;
+        const bool hole = y == cells / 2 && x % 2 == 1 && x / 2 < holes;
+        if (!hole) holed.faces.push_back(mesh.faces[f]);
+    }
+    return holed;
+}
+
+TriangleMesh open_cylinder(std::uint32_t around, std::uint32_t along) {
+    TriangleMesh mesh;
+    for (std::uint32_t row = 0; row <= along; ++row) {
+        for (std::uint32_t n = 0; n < around; ++n) {
+            const double angle = 2 * std::numbers::pi * n / around;
+            mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 2.0 * row / along);
+        }
+    }
+    for (std::uint32_t row = 0; row < along; ++row) {
+        for (std::uint32_t n = 0; n < around; ++n) {
+            const std::uint32_t a = row * around + n, b = row * around + (n + 1) % around;
+            mesh.faces.push_back({a, b, b + around});
+            mesh.faces.push_back({a, b + around, a + around});
+        }
+    }
+    return mesh;
+}
+
+TriangleMesh hemisphere(std::uint32_t around, std::uint32_t along) {
+    TriangleMesh mesh = open_cylinder(around, along - 1);
+    for (std::uint32_t row = 0; row < along; ++row) {
+        const double height = std::numbers::pi / 2 * row / along;
+        for (std::uint32_t n = 0; n < around; ++n) {
+            Vec3& p = mesh.positions[row * around + n];
+            p = {p.x() * std::cos(height), p.y() * std::cos(height), std::sin(height)};
+        }
+    }
+    const auto pole = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.emplace_back(0, 0, 1);
+    for (std::uint32_t n = 0; n < around; ++n) mesh.faces.push_back({pole - around + n, pole - around + (n + 1) % around, pole});
+    return mesh;
+}
+
 std::vector<NamedMesh> small_meshes() {
     return {
         {"tetrahedron", tetrahedron()},

@@ -51,6 +51,15 @@ namespace vsplit::test {
 /// A flat square of 2 * cells * cells faces, one boundary.
 [[nodiscard]] TriangleMesh square(std::uint32_t cells);
 
+/// The same with holes of one cell, `holes` of them along its middle: holes + 1 boundaries. \pre 2 * holes < cells.
+[[nodiscard]] TriangleMesh holed_square(std::uint32_t cells, std::uint32_t holes);
+
+/// The side of a cylinder of radius 1 and height 2, two boundaries. 2 * around * along faces.
+[[nodiscard]] TriangleMesh open_cylinder(std::uint32_t around, std::uint32_t along);
+
+/// The upper half of the unit sphere, its boundary a polygon of `around` corners. (2 * along - 1) * around faces.
+[[nodiscard]] TriangleMesh hemisphere(std::uint32_t around, std::uint32_t along);
+
 /// A mesh and what a test calls it.
 struct NamedMesh {
     std::string name;

@@ -30,7 +30,7 @@ TriangleMesh jittered_cube(std::uint32_t cells, double share, std::uint64_t seed
 }
 
 Polishing::Polishing(const TriangleMesh& source, double tolerance_share)
-    : input(simplify_input(source, tolerance_share)), mesh(input.mesh), state(initial_state(input)) {
+    : input(simplify_input(source, tolerance_share)), mesh(input.mesh, input.ghosts), state(initial_state(input)) {
     for (const SharpEdge& crease : input.creases) {
         mesh.for_each_outgoing(crease.a, [&](HalfEdge h) {
             if (mesh.target(h) == crease.b) mesh.mark_crease(h);

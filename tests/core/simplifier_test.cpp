@@ -5,7 +5,9 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
+#include "mesh/cap_boundaries.h"
 #include "simplify/collapse_log.h"
 #include "simplify/edge_evaluator.h"
 #include "simplify/edge_queue.h"
@@ -42,7 +44,7 @@ template <class Policy>
 class LiteralSimplifier {
 public:
     LiteralSimplifier(const SimplifyInput& input, const Policy& policy)
-        : input_(input), policy_(policy), mesh_(input.mesh), state_(initial_state(input_)) {}
+        : input_(input), policy_(policy), mesh_(input.mesh, input.ghosts), state_(initial_state(input_)) {}
 
     MultiresMesh run() {
         for (int phase = policy_.two_phases() ? 1 : 2; phase <= 2; ++phase) {
@@ -50,7 +52,7 @@ public:
             while (mesh_.live_faces() >= input_.faces_min + 2 && collapse_best()) {
             }
         }
-        return log_.build(mesh_);
+        return log_.build(mesh_, input_.ghosts);
     }
 
 private:
@@ -76,6 +78,7 @@ private:
         const Fan& fan = evaluator.fan();
         log_.record(mesh_, star);
         state_.quadrics[mesh_.origin(star.ij)] += state_.quadrics[mesh_.origin(star.ji)];
+        state_.border.join(mesh_.origin(star.ij), mesh_.origin(star.ji));
         mesh_.collapse(star, evaluation.position);
         for (std::size_t t = 0; t < fan.size(); ++t) {
             state_.faces[fan.face(t)] = {fan.normal(t), fan.stretch(t), fan.face_size(t)};
@@ -93,7 +96,9 @@ TEST(SimplifierTest, CollapsesInExactlyTheOrderOfTheLiteralAlgorithm) {
     const ExecutionContext context;
     for (const TriangleMesh& mesh :
          {test::icosphere(2), test::torus(16, 10), test::bumpy_sphere(2, 0.05, 3), test::plate_with_holes(2),
-          test::sliver_cylinder(24, 6), test::joined(test::cube_frame(), test::icosphere(1), Vec3(20, 0, 0))}) {
+          test::sliver_cylinder(24, 6), test::joined(test::cube_frame(), test::icosphere(1), Vec3(20, 0, 0)),
+          test::holed_square(8, 2), test::open_cylinder(24, 5), test::hemisphere(20, 6),
+          test::joined(test::square(5), test::cube_frame(), Vec3(0, 0, 3))}) {
         const SimplifyInput input = test::simplify_input(mesh, 0.05);
         const auto improved = simplify(input, ImprovePolicy{}, context);
         ASSERT_TRUE(improved);
@@ -149,18 +154,19 @@ ByHand by_hand(const TriangleMesh& mesh, std::uint32_t i, std::uint32_t j, const
     return result;
 }
 
-TEST(EdgeEvaluatorTest, PrioritiesAreThePapersEquations) {
-    const TriangleMesh source = test::bumpy_sphere(2, 0.05, 9);
+/// Compares every valid edge of `source`; how many there were, and how many of them with an end on a boundary.
+std::pair<int, int> expect_papers_priorities(const TriangleMesh& source) {
     const SimplifyInput input = test::simplify_input(source, 0.2);
-    const TriangleMesh& mesh = input.mesh;
-    const HalfEdgeMesh half_edges(mesh);
+    TriangleMesh mesh = input.mesh;
+    std::erase_if(mesh.faces, [&](const Triangle& face) { return touches_ghost(face, input.ghosts); });
+    const HalfEdgeMesh half_edges(input.mesh, input.ghosts);
     const ImprovePolicy improve_policy;
     ControlPolicy policy = control_policy(source);
     policy.min_stretch = 0;
     const LocalState state = initial_state(input);
     EdgeEvaluator<ImprovePolicy> improving(half_edges, state, improve_policy, input);
     EdgeEvaluator<ControlPolicy> controlling(half_edges, state, policy, input);
-    int valid = 0;
+    std::pair<int, int> valid{0, 0};
     for (const HalfEdge h : live_edges(half_edges)) {
         const std::uint32_t i = half_edges.origin(h);
         const std::uint32_t j = half_edges.target(h);
@@ -169,16 +175,27 @@ TEST(EdgeEvaluatorTest, PrioritiesAreThePapersEquations) {
             const ByHand hand = by_hand(mesh, i, j, improved.position);
             const double rho = hand.faces_before / hand.size_before * hand.q_after / hand.q_before;
             EXPECT_NEAR(improved.priority, rho, 1e-9 * rho);
-            ++valid;
+            ++valid.first;
+            valid.second += state.border.ghost_beside(i) != kNone || state.border.ghost_beside(j) != kNone ? 1 : 0;
         }
         const Evaluation controlled = controlling.evaluate(h);
         if (controlled.verdict != Evaluation::Verdict::kValid) continue;
         const ByHand hand = by_hand(mesh, i, j, controlled.position);
-        const double rho =
-            hand.inverse_size_before * policy.max_size * hand.min_after * hand.sum_after / (2 * (hand.faces_after - 1));
+        const double rho = hand.inverse_size_before * policy.max_size * hand.min_after * hand.sum_after /
+                           (2 * std::max(hand.faces_after - 1, 1.0));
         EXPECT_NEAR(controlled.priority, rho, 1e-9 * rho);
     }
-    EXPECT_GT(valid, 100);
+    return valid;
+}
+
+TEST(EdgeEvaluatorTest, PrioritiesAreThePapersEquations) {
+    EXPECT_GT(expect_papers_priorities(test::bumpy_sphere(2, 0.05, 9)).first, 100);
+}
+
+TEST(EdgeEvaluatorTest, AtABoundaryOnlyWhatIsSeenCounts) {
+    for (const TriangleMesh& source : {test::holed_square(8, 2), test::hemisphere(20, 6), test::open_cylinder(12, 1)}) {
+        EXPECT_GT(expect_papers_priorities(source).second, 10);
+    }
 }
 
 TEST(EdgeEvaluatorTest, LinkConditionIsThatOfTheDefinition) {

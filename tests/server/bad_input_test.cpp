@@ -120,16 +120,16 @@ protected:
     const std::string session_ = session_with(server_.stub(), icosphere(2));
 };
 
-TEST_F(BadRequestTest, MethodsRefuseAnOpenMeshNamingItsEdges) {
-    TriangleMesh open = cube();
-    open.faces.pop_back();
-    const std::string id = session_with(server_.stub(), open);
+TEST_F(BadRequestTest, MethodsRefuseABoundaryThatTouchesItselfNamingWhere) {
+    TriangleMesh touching = square(2);
+    touching.faces = {{0, 1, 4}, {0, 4, 3}, {4, 5, 8}, {4, 8, 7}};
+    const std::string id = session_with(server_.stub(), touching);
     const Received improved = improve(server_.stub(), small_improve(id));
-    EXPECT_TRUE(failed_with(improved.status, Cause::kOpenMesh));
-    EXPECT_THAT(improved.status.error_message(), HasSubstr("3 edges"));
+    EXPECT_TRUE(failed_with(improved.status, Cause::kNonManifold));
+    EXPECT_THAT(improved.status.error_message(), HasSubstr("touches itself at vertex"));
     v1::ControlRequest request;
     request.set_session(id);
-    EXPECT_TRUE(failed_with(control(server_.stub(), request).status, Cause::kOpenMesh));
+    EXPECT_TRUE(failed_with(control(server_.stub(), request).status, Cause::kNonManifold));
     EXPECT_TRUE(download(server_.stub(), id).status.ok()) << "it can still be looked at";
     expect_unharmed();
 }

@@ -57,6 +57,37 @@ TEST_F(MethodRpcsTest, ImproveStreamsProgressTheMeshAndTheRepresentation) {
     EXPECT_GT(received.base_parts, 0U);
 }
 
+TEST_F(MethodRpcsTest, AnOpenMeshIsStreamedAsItWouldBeDownloaded) {
+    const TriangleMesh open = holed_square(8, 2);
+    const std::string session = session_with(server_.stub(), open);
+    for (const bool frozen : {false, true}) {
+        v1::ImproveRequest request = small_improve(session);
+        request.mutable_options()->set_freeze_boundary(frozen);
+        const Received received = improve(server_.stub(), request);
+        ASSERT_TRUE(received.status.ok()) << received.status.error_message();
+        ASSERT_TRUE(received.representation && received.mesh);
+        const v1::Representation& made = *received.representation;
+        const TriangleMesh rebuilt = received.mesh->visible();
+        EXPECT_EQ(received.mesh->ghosts(), 3U);
+        EXPECT_EQ(rebuilt.face_count(), made.faces());
+        EXPECT_EQ(file_of(rebuilt), download(server_.stub(), session, made.id()).file);
+        EXPECT_EQ(made.improve_options().freeze_boundary(), frozen);
+        v1::SetResolutionRequest coarser;
+        coarser.set_session(session);
+        coarser.set_representation(made.id());
+        coarser.set_faces(made.faces_min());
+        const Received base = set_resolution(server_.stub(), coarser);
+        ASSERT_TRUE(base.status.ok() && base.mesh);
+        EXPECT_EQ(file_of(base.mesh->visible()), download(server_.stub(), session, made.id(), made.faces_min()).file);
+    }
+    v1::ControlRequest request;
+    request.set_session(session);
+    request.mutable_source()->set_representation("r1");
+    const Received controlled = control(server_.stub(), request);
+    ASSERT_TRUE(controlled.status.ok()) << controlled.status.error_message();
+    EXPECT_EQ(file_of(controlled.mesh->visible()), download(server_.stub(), session, controlled.representation->id()).file);
+}
+
 TEST_F(MethodRpcsTest, ImproveIsTheEnginesOwn) {
     const v1::ImproveRequest request = small_improve(session_);
     const Received received = improve(server_.stub(), request);

@@ -3,30 +3,11 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/half_edges.h"
+#include "mesh/boundary_loops.h"
 #include "vsplit/mesh/inspect.h"
 
 namespace vsplit {
 namespace {
-
-/// The loops of a mesh's boundary, each as its half-edges in the order in which they follow one another.
-std::vector<std::vector<HalfEdge>> boundary_loops(const TriangleMesh& mesh) {
-    const std::vector<HalfEdge> twin = half_edge_twins(mesh);
-    std::vector<HalfEdge> leaving(mesh.positions.size(), kNone);  // the boundary half-edge that leaves a vertex: one at most
-    for (HalfEdge h = 0; h < twin.size(); ++h) {
-        if (twin[h] == kNone) leaving[origin(mesh, h)] = h;
-    }
-    std::vector<std::vector<HalfEdge>> loops;
-    for (HalfEdge first = 0; first < twin.size(); ++first) {
-        if (twin[first] != kNone || leaving[origin(mesh, first)] == kNone) continue;
-        std::vector<HalfEdge>& loop = loops.emplace_back();
-        for (HalfEdge h = first; h != kNone; h = leaving[origin(mesh, next(h))]) {
-            loop.push_back(h);
-            leaving[origin(mesh, h)] = kNone;
-        }
-    }
-    return loops;
-}
 
 Vec3 centroid(const TriangleMesh& mesh, const std::vector<HalfEdge>& loop) {
     Vec3 sum = Vec3::Zero();
@@ -38,6 +19,10 @@ Vec3 centroid(const TriangleMesh& mesh, const std::vector<HalfEdge>& loop) {
 
 Expected<CappedMesh> cap_boundaries(TriangleMesh mesh) {
     if (Status manifold = require_manifold(inspect(mesh)); !manifold) return manifold.error();
+    return cap_manifold(std::move(mesh));
+}
+
+CappedMesh cap_manifold(TriangleMesh mesh) {
     const std::vector<std::vector<HalfEdge>> loops = boundary_loops(mesh);
     CappedMesh capped;
     capped.ghosts = static_cast<std::uint32_t>(loops.size());

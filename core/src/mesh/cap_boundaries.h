@@ -20,6 +20,9 @@ struct CappedMesh {
 /// that disagree, a vertex at which two fans of faces, so also two parts of the boundary, meet. O(faces log faces).
 [[nodiscard]] Expected<CappedMesh> cap_boundaries(TriangleMesh mesh);
 
+/// The same for who knows that `mesh` is manifold. \pre require_manifold finds nothing. O(faces).
+[[nodiscard]] CappedMesh cap_manifold(TriangleMesh mesh);
+
 [[nodiscard]] inline bool touches_ghost(const Triangle& face, std::uint32_t ghosts) {
     return std::min({face[0], face[1], face[2]}) < ghosts;
 }

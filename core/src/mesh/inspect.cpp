@@ -135,6 +135,22 @@ FindingCounter survey_duplicates(const TriangleMesh& mesh) {
     return counter;
 }
 
+/// Of vertices with several fans those where two are open: each open one has two boundary edges.
+std::vector<std::uint32_t> survey_touches(const TriangleMesh& mesh, const EdgeIndex& edges, const FindingCounter& several) {
+    std::vector<std::uint32_t> touches;
+    if (several.count() == 0) return touches;
+    std::vector<std::uint32_t> ends(mesh.positions.size(), 0);
+    edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
+        if (last - first != 1) return;
+        ++ends[first->a()];
+        ++ends[first->b()];
+    });
+    for (std::uint32_t v = 0; v < mesh.vertex_count() && touches.size() < Finding::kExamples; ++v) {
+        if (ends[v] >= 4) touches.push_back(v);
+    }
+    return touches;
+}
+
 std::uint32_t used_vertices(const TriangleMesh& mesh) {
     std::vector<bool> used(mesh.positions.size(), false);
     for (const Triangle& f : mesh.faces) {
@@ -201,6 +217,7 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     report.quality = measure_quality(mesh, index);
     EdgeSurvey edges = survey_edges(mesh, index);
     FindingCounter vertices = survey_vertices(mesh, index);
+    report.boundary_touches = survey_touches(mesh, index, vertices);
     FindingCounter degenerate = survey_degenerate(mesh);
     FindingCounter duplicates = survey_duplicates(mesh);
     report.components = edges.components;
@@ -234,12 +251,12 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
 namespace {
 
 Status require_faces_and_edges(const MeshReport& report) {
-    if (report.faces == 0) return Error{Cause::kEmptyInput, "the mesh has no faces; a closed mesh of at least 4 is needed", ""};
+    if (report.faces == 0) return Error{Cause::kEmptyInput, "the mesh has no faces; at least one is needed", ""};
     using Kind = Finding::Kind;
     if (const Finding* f = find_kind(report, Kind::kNonManifoldEdge)) {
         return Error{Cause::kNonManifold,
                      std::to_string(f->count) + " edges have more than two faces: " + places(*f, true) +
-                         " (vertex indices); every edge must have exactly two",
+                         " (vertex indices); every edge must have two, or one at a boundary",
                      ""};
     }
     if (const Finding* f = find_kind(report, Kind::kInconsistentEdge)) {
@@ -258,7 +275,22 @@ Status require_faces_and_edges(const MeshReport& report) {
     return Done{};
 }
 
+/// "7" or "7, 8, 9, ...".
+std::string list(const std::vector<std::uint32_t>& numbers) {
+    constexpr std::size_t kShown = 5;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(kShown, numbers.size()); ++i) text += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
+    return numbers.size() > kShown ? text + ", ..." : text;
+}
+
 Status require_vertices(const MeshReport& report) {
+    if (!report.boundary_touches.empty()) {
+        return Error{Cause::kNonManifold,
+                     "the boundary touches itself at vertex " + list(report.boundary_touches) +
+                         "; accepted is a boundary that passes every vertex at most once: give each part a vertex of its own, or "
+                         "fill the gap between them",
+                     ""};
+    }
     if (const Finding* f = find_kind(report, Finding::Kind::kNonManifoldVertex)) {
         return Error{Cause::kNonManifold,
                      std::to_string(f->count) + " vertices join more than one fan of faces: " + places(*f, false) +

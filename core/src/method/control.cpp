@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "base/thread_limit.h"
+#include "mesh/half_edges.h"
 #include "method/report_creases.h"
+#include "method/subdivision.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/quality/stretch.h"
@@ -28,15 +30,16 @@ ControlPolicy policy_of(const ControlOptions& used, double diagonal) {
 
 /// One-to-four, and midpoints in what is still over max_size: no collapse makes a face smaller.
 Expected<SubdividedMesh> subdivide(const TriangleMesh& mesh, const std::optional<SizePlan>& sizes, const ControlOptions& used,
-                                   std::uint32_t face_limit, const ExecutionContext& context) {
+                                   bool frozen, std::uint32_t face_limit, const ExecutionContext& context) {
     const auto quartered = [&](const TriangleMesh& m) {
-        return subdivide_one_to_four(m, *used.subdivisions, face_limit, context);
+        return frozen ? subdivide_one_to_four_inside(m, *used.subdivisions, face_limit, context)
+                      : subdivide_one_to_four(m, *used.subdivisions, face_limit, context);
     };
-    Expected<SubdividedMesh> fine = sizes ? subdivide_to_sizes(mesh, sizes->field, face_limit, context) : quartered(mesh);
+    Expected<SubdividedMesh> fine = sizes ? to_sizes(mesh, *sizes, frozen, face_limit, context) : quartered(mesh);
     if (fine && sizes) fine = refined(*std::move(fine), quartered);
     if (!fine || !used.max_size) return fine;
-    fine = refined(*std::move(fine),
-                   [&](const TriangleMesh& m) { return subdivide_to_size(m, *used.max_size, face_limit, context); });
+    fine =
+        refined(*std::move(fine), [&](const TriangleMesh& m) { return to_size(m, *used.max_size, frozen, face_limit, context); });
     if (fine) return fine;
     Error error = fine.error();
     if (error.field == "subdivision_size") error.field = "max_size";
@@ -70,8 +73,10 @@ private:
 
 std::vector<std::uint32_t> valences(const TriangleMesh& mesh) {
     std::vector<std::uint32_t> valence(mesh.positions.size(), 0);
-    for (const Triangle& f : mesh.faces) {
-        for (const std::uint32_t v : f) ++valence[v];  // of a closed mesh: as many edges as faces
+    const std::vector<HalfEdge> twins = half_edge_twins(mesh);
+    for (HalfEdge h = 0; h < twins.size(); ++h) {
+        ++valence[origin(mesh, h)];
+        if (twins[h] == kNone) ++valence[origin(mesh, next(h))];  // which no half-edge of it leaves
     }
     return valence;
 }
@@ -100,6 +105,7 @@ ControlOptions default_options(const TriangleMesh& mesh, const ControlOptions& o
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
     used.faces = options.faces ? *options.faces : std::max(mesh.face_count(), options.faces_min.value_or(kLeastFaces));
     used.faces_min = options.faces_min.value_or(kLeastFaces);
+    used.freeze_boundary = options.freeze_boundary.value_or(false);
     return used;
 }
 
@@ -141,16 +147,19 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     const auto start = std::chrono::steady_clock::now();
     if (Status valid = check_options(options); !valid) return valid.error();
     context.report({"inspect", 0, mesh.face_count()});
-    if (Status closed = require_closed_manifold(inspect(mesh)); !closed) return closed.error();
+    const MeshReport report = inspect(mesh);
+    if (Status manifold = require_manifold(report); !manifold) return manifold.error();
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
     const ControlOptions used = default_options(mesh, options);
 
     const Expected<std::optional<SizePlan>> sizes = plan_sizes(mesh, used.sizing, feature_options(used), usual_size(mesh, used));
     if (!sizes) return sizes.error();
-    Expected<SubdividedMesh> subdivided = subdivide(mesh, *sizes, used, limits.max_faces, context);
+    const bool frozen = *used.freeze_boundary && !report.closed;
+    Expected<SubdividedMesh> subdivided = subdivide(mesh, *sizes, used, frozen, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
     const bool extended = used.mode == Mode::kExtended;
-    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces, *sizes ? &**sizes : nullptr},
+    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces, frozen, report.closed,
+                         *sizes ? &**sizes : nullptr},
                         extended,
                         used.max_deviation.value_or(0),
                         options.max_deviation};

@@ -7,6 +7,7 @@
 
 #include "base/thread_limit.h"
 #include "method/report_creases.h"
+#include "method/subdivision.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/quality/stretch.h"
 
@@ -67,12 +68,12 @@ Expected<std::optional<SizePlan>> plan_for(const TriangleMesh& mesh, const Impro
 }
 
 /// To the sizes that are planned where they are smaller, and to `size`.
-Expected<SubdividedMesh> subdivide(const TriangleMesh& mesh, const std::optional<SizePlan>& sizes, double size,
+Expected<SubdividedMesh> subdivide(const TriangleMesh& mesh, const std::optional<SizePlan>& sizes, double size, bool frozen,
                                    std::uint32_t face_limit, const ExecutionContext& context) {
-    if (!sizes) return subdivide_to_size(mesh, size, face_limit, context);
-    Expected<SubdividedMesh> sized = subdivide_to_sizes(mesh, sizes->field, face_limit, context);
-    if (!sized) return sized;
-    return refined(*std::move(sized), [&](const TriangleMesh& m) { return subdivide_to_size(m, size, face_limit, context); });
+    const auto to_usual = [&](const TriangleMesh& m) { return to_size(m, size, frozen, face_limit, context); };
+    if (!sizes) return to_usual(mesh);
+    Expected<SubdividedMesh> sized = to_sizes(mesh, *sizes, frozen, face_limit, context);
+    return sized ? refined(*std::move(sized), to_usual) : sized;
 }
 
 }  // namespace
@@ -88,6 +89,7 @@ ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& o
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
     used.faces = options.faces ? *options.faces : std::max(default_faces(mesh, used), options.faces_min.value_or(4));
     used.faces_min = options.faces_min.value_or(kLeastFaces);
+    used.freeze_boundary = options.freeze_boundary.value_or(false);
     return used;
 }
 
@@ -98,17 +100,20 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     const auto start = std::chrono::steady_clock::now();
     if (Status valid = check_options(options); !valid) return valid.error();
     context.report({"inspect", 0, mesh.face_count()});
-    if (Status closed = require_closed_manifold(inspect(mesh)); !closed) return closed.error();
+    const MeshReport report = inspect(mesh);
+    if (Status manifold = require_manifold(report); !manifold) return manifold.error();
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
     ImproveOptions used = default_options(mesh, options, limits);
 
     const Expected<std::optional<SizePlan>> sizes = plan_for(mesh, options, used, limits);
     if (!sizes) return sizes.error();
-    Expected<SubdividedMesh> subdivided = subdivide(mesh, *sizes, *used.subdivision_size, limits.max_faces, context);
+    const bool frozen = *used.freeze_boundary && !report.closed;
+    Expected<SubdividedMesh> subdivided = subdivide(mesh, *sizes, *used.subdivision_size, frozen, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
     if (*sizes && !options.faces) used.faces = std::max(face_count(wanted_faces(*subdivided, mesh, **sizes)), *used.faces_min);
     const bool extended = used.mode == Mode::kExtended;
-    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces, *sizes ? &**sizes : nullptr},
+    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces, frozen, report.closed,
+                         *sizes ? &**sizes : nullptr},
                         extended,
                         used.max_deviation.value_or(0),
                         options.max_deviation};

@@ -5,6 +5,9 @@
 #include <numbers>
 #include <utility>
 
+#include "features/boundary_corners.h"
+#include "mesh/boundary_loops.h"
+#include "mesh/cap_boundaries.h"
 #include "mesh/spatial_order.h"
 #include "quality/deviation_of_index.h"
 #include "vsplit/features/face_normals.h"
@@ -45,6 +48,38 @@ std::vector<Quadric> vertex_quadrics(const TriangleMesh& mesh, const FaceNormals
     return quadrics;
 }
 
+/// Boundaries are held by their lines whatever creases weigh. Returns the creases, boundary edges at least so heavy.
+std::vector<SharpEdge> with_heavy_boundary(std::vector<SharpEdge> creases, const TriangleMesh& mesh) {
+    constexpr double kLeastWeight = 1;
+    std::vector<std::uint32_t> after(mesh.positions.size(), kNone);
+    for (const std::vector<HalfEdge>& loop : boundary_loops(mesh)) {
+        for (const HalfEdge h : loop) after[origin(mesh, h)] = origin(mesh, next(h));
+    }
+    for (SharpEdge& edge : creases) {
+        if (after[edge.a] == edge.b || after[edge.b] == edge.a) edge.weight = std::max(edge.weight, kLeastWeight);
+    }
+    return creases;
+}
+
+/// Closes boundaries by ghosts, which come first and have nothing of what other vertices and faces have.
+void cap(SimplifyInput& input) {
+    CappedMesh capped = cap_manifold(std::move(input.mesh));
+    input.mesh = std::move(capped.mesh);
+    input.ghosts = capped.ghosts;
+    if (input.ghosts == 0) return;
+    input.normals.resize(input.mesh.faces.size(), Vec3::Zero());
+    input.quadrics.insert(input.quadrics.begin(), input.ghosts, Quadric{});
+    if (!input.sizes.empty()) input.sizes.insert(input.sizes.begin(), input.ghosts, input.usual_size);
+    for (std::uint32_t& corner : input.boundary_corners) corner += input.ghosts;
+    for (SharpEdge& crease : input.creases) {
+        crease.a += input.ghosts;
+        crease.b += input.ghosts;
+    }
+}
+
+/// A boundary that is rough by up to the tolerance has no corners; from this many tolerances away it looks straight.
+constexpr double kCornerReach = 4;
+
 }  // namespace
 
 SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options) {
@@ -55,6 +90,11 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
     SimplifyInput input;
     input.centre = (box.min + box.max) / 2;
     input.creases = creases_on(subdivided, source, find_creases(source, source_normals, options.features));
+    if (!options.closed) {
+        input.creases = with_heavy_boundary(std::move(input.creases), subdivided.mesh);
+        input.boundary_corners = boundary_corners(subdivided.mesh, {options.features.angle, kCornerReach * options.tolerance});
+        input.freeze_boundary = options.freeze_boundary;
+    }
     input.quadrics = vertex_quadrics(subdivided.mesh, normals, input.creases, input.centre);
     if (options.sizes != nullptr) {
         input.sizes = allowed_sizes(subdivided, source, *options.sizes);
@@ -67,6 +107,7 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
     input.tolerance = options.tolerance;
     input.faces_min = options.faces_min;
     input.faces = options.faces;
+    if (!options.closed) cap(input);
     return input;
 }
 
@@ -86,7 +127,8 @@ bool has_needles(const TriangleMesh& mesh) {
 }  // namespace
 
 void guard(SimplifyInput& input, const TriangleMesh& source, double distance) {
-    input.source = std::make_shared<const SurfaceIndex>(surface_index(has_needles(source) ? input.mesh : source));
+    input.source = std::make_shared<const SurfaceIndex>(
+        surface_index(has_needles(source) ? visible_mesh(input.mesh, input.ghosts) : source));
     input.max_deviation = distance;
 }
 

@@ -16,11 +16,13 @@ struct PrepareOptions {
     double tolerance = 0;
     std::uint32_t faces_min = 0;
     std::uint32_t faces = 0;
+    bool freeze_boundary = false;
+    bool closed = false;              ///< the source is known to have no boundary, so none is looked for
     const SizePlan* sizes = nullptr;  ///< null: the same size everywhere
 };
 
-/// Normals, creases and quadrics of a subdivided mesh. Normals are those of the source's faces: subdivision does not change the
-/// surface, but slivers cut small no longer show where they look. O(faces).
+/// Normals, creases and quadrics of a subdivided mesh, whose boundaries are then closed by ghosts. Normals are those of the
+/// source's faces: subdivision does not change the surface, but slivers cut small no longer show where they look. O(faces).
 [[nodiscard]] SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options);
 
 /// Fills in `tolerance` and, in the extended mode, `max_deviation`: either follows from the other where that is given.
@@ -54,16 +56,6 @@ void report_deviation(MethodResult& result, std::optional<double> limit);
 
 /// A violation where edges of the shown resolution are longer than `plan` allows.
 void report_sizes(MethodResult& result, const TriangleMesh& source, const SizePlan& plan);
-
-/// A subdivision, subdivided again by `next`.
-template <class Next>
-[[nodiscard]] Expected<SubdividedMesh> refined(SubdividedMesh fine, Next next) {
-    Expected<SubdividedMesh> finer = next(fine.mesh);
-    if (finer) {
-        for (std::uint32_t& parent : finer->parent) parent = fine.parent[parent];
-    }
-    return finer;
-}
 
 /// The resolution of `mrr` nearest to `faces`, and its figures.
 [[nodiscard]] MethodResult describe_resolution(MultiresMesh mrr, std::uint32_t faces);

@@ -9,8 +9,11 @@ namespace {
 constexpr float kBlade = -0.8F;
 constexpr float kBladeStep = 0.05F;
 
-/// Of the normals on either side of spoke t.
-float dot_at_spoke(const Fan& fan, std::size_t t) { return fan.normal(t).dot(fan.normal(t == 0 ? fan.size() - 1 : t - 1)); }
+/// Of the normals on either side of the spoke to ring vertex t; 0 along a boundary, where there is but one.
+float dot_at_spoke(const Fan& fan, std::size_t t) {
+    const bool ends_fan = fan.is_open() && (t == 0 || t == fan.size());
+    return ends_fan ? 0 : fan.normal(t).dot(fan.normal(t == 0 ? fan.size() - 1 : t - 1));
+}
 
 }  // namespace
 
@@ -34,26 +37,45 @@ void CreaseReplacement::offer(HalfEdge edge, bool kept_flat, Dots dots, const Ve
     if (kept_flat || dots.after < cosine_) new_.push_back({edge, a, b});
 }
 
-void CreaseReplacement::add_spoke(HalfEdge spoke, const Fan& fan, std::size_t t, const Vec3& apex) {
-    if (!mesh_.is_crease(spoke)) return;
-    take(spoke);
-    offer(mesh_.edge_of(spoke), mesh_.is_kept_flat(spoke), {dot_at(spoke), dot_at_spoke(fan, t)}, apex, fan.ring(t));
+/// Spoke h, or its twin, to ring vertex t.
+void CreaseReplacement::add_spoke(HalfEdge h, const Fan& fan, std::size_t t, const Vec3& apex) {
+    if (!mesh_.is_crease(h)) return;
+    take(h);
+    offer(mesh_.edge_of(h), mesh_.is_kept_flat(h), {dot_at(h), dot_at_spoke(fan, t)}, apex, fan.ring(t));
 }
 
-/// Two spokes that a collapse makes one of, which will go by the number `edge`.
-void CreaseReplacement::add_wing(HalfEdge one, HalfEdge other, HalfEdge edge, const Fan& fan, std::size_t t, const Vec3& apex) {
+/// The spoke to ring vertex t that two edges, those of `one` and `other`, become one of.
+void CreaseReplacement::add_wing(HalfEdge one, HalfEdge other, const Fan& fan, std::size_t t, const Vec3& apex) {
+    if (!mesh_.is_crease(one) && !mesh_.is_crease(other)) return;
     take(one);
     take(other);
-    if (!mesh_.is_crease(one) && !mesh_.is_crease(other)) return;
-    const float before = std::min(dot_at(one), dot_at(other));
-    offer(edge, mesh_.is_kept_flat(one) || mesh_.is_kept_flat(other), {before, dot_at_spoke(fan, t)}, apex, fan.ring(t));
+    const bool kept_flat = mesh_.is_kept_flat(one) || mesh_.is_kept_flat(other);
+    offer(std::min(one, other), kept_flat, {std::min(dot_at(one), dot_at(other)), dot_at_spoke(fan, t)}, apex, fan.ring(t));
 }
 
 void CreaseReplacement::add_side(HalfEdge side, const Fan& fan, std::size_t t) {
     if (!mesh_.is_crease(side)) return;
     take(side);
-    const float dot = fan.normal(t).dot(state_.faces[face_of(mesh_.twin(side))].normal);
-    offer(mesh_.edge_of(side), mesh_.is_kept_flat(side), {dot_at(side), dot}, fan.ring(t), fan.ring(t + 1));
+    const float after = fan.normal(t).dot(state_.faces[face_of(mesh_.twin(side))].normal);
+    offer(mesh_.edge_of(side), mesh_.is_kept_flat(side), {dot_at(side), after}, fan.ring(t), fan.ring(t + 1));
+}
+
+/// The half-edge of the fan's face t that lies on its ring.
+HalfEdge CreaseReplacement::side_of(const Fan& fan, std::size_t t) const {
+    HalfEdge side = 3 * fan.face(t);
+    while (mesh_.origin(side) != fan.vertex(t)) side = next(side);
+    return side;
+}
+
+template <class AddSpoke>
+bool CreaseReplacement::try_fan(const Fan& fan, AddSpoke add) {
+    for (std::size_t t = 0; t < fan.size(); ++t) {
+        const HalfEdge side = side_of(fan, t);
+        add(prev(side), t);
+        add_side(side, fan, t);
+    }
+    if (fan.is_open()) add(next(side_of(fan, fan.size() - 1)), fan.size());
+    return admitted();
 }
 
 void CreaseReplacement::commit() {
@@ -64,31 +86,21 @@ bool CreaseReplacement::try_collapse(const EdgeStar& star, const Fan& fan, const
     if (guard_ == nullptr) return true;
     start();
     take(star.ij);
-    std::size_t t = 0;
-    const auto walk = [&](HalfEdge first, HalfEdge twin_of_first, HalfEdge partner, std::uint32_t last_face) {
-        for (HalfEdge spoke = first; face_of(spoke) != last_face; spoke = mesh_.turn(spoke), ++t) {
-            if (spoke == first) {
-                add_wing(first, partner, std::min(first, twin_of_first), fan, t, apex);
-            } else {
-                add_spoke(spoke, fan, t, apex);
-            }
-            add_side(next(spoke), fan, t);
+    return try_fan(fan, [&](HalfEdge spoke, std::size_t t) {
+        if (spoke == star.ie || spoke == star.ej) {
+            add_wing(star.ie, star.ej, fan, t, apex);
+        } else if (spoke == star.jb || spoke == star.bi) {
+            add_wing(star.jb, star.bi, fan, t, apex);
+        } else {
+            add_spoke(spoke, fan, t, apex);
         }
-    };
-    walk(star.ie, star.ej, star.je, face_of(star.ji));
-    walk(star.jb, star.bi, star.ib, face_of(star.ij));
-    return done();
+    });
 }
 
-bool CreaseReplacement::try_move(std::uint32_t v, const Fan& fan, const Vec3& apex) {
+bool CreaseReplacement::try_move(const Fan& fan, const Vec3& apex) {
     if (guard_ == nullptr) return true;
     start();
-    std::size_t t = 0;
-    mesh_.for_each_outgoing(v, [&](HalfEdge spoke) {
-        add_spoke(spoke, fan, t, apex);
-        add_side(next(spoke), fan, t++);
-    });
-    return done();
+    return try_fan(fan, [&](HalfEdge spoke, std::size_t t) { add_spoke(spoke, fan, t, apex); });
 }
 
 bool CreaseReplacement::try_flip(HalfEdge h, const Vec3& of_h, const Vec3& of_twin) {
@@ -108,7 +120,7 @@ bool CreaseReplacement::try_flip(HalfEdge h, const Vec3& of_h, const Vec3& of_tw
     add(next(g), prev(h), of_h);
     add(prev(g), next(g), of_twin);
     add(next(h), prev(g), of_twin);
-    return done();
+    return admitted();
 }
 
 }  // namespace vsplit

@@ -20,8 +20,8 @@ public:
     /// Whether the guard lets the edge of `star` collapse. \pre `fan` is that of the collapse, shaped for `apex`.
     [[nodiscard]] bool try_collapse(const EdgeStar& star, const Fan& fan, const Vec3& apex);
 
-    /// Whether the guard lets v move. \pre `fan` is the faces around v from its outgoing half-edge on, shaped for `apex`.
-    [[nodiscard]] bool try_move(std::uint32_t v, const Fan& fan, const Vec3& apex);
+    /// Whether the guard lets a vertex move. \pre `fan` is the faces around it, shaped for `apex`.
+    [[nodiscard]] bool try_move(const Fan& fan, const Vec3& apex);
 
     /// Whether the guard lets the edge of h turn into faces with these normals: that of h and that of its twin.
     [[nodiscard]] bool try_flip(HalfEdge h, const Vec3& of_h, const Vec3& of_twin);
@@ -40,10 +40,13 @@ private:
     void take(HalfEdge h);
     [[nodiscard]] float dot_at(HalfEdge h) const;
     void offer(HalfEdge edge, bool kept_flat, Dots dots, const Vec3& a, const Vec3& b);
-    void add_spoke(HalfEdge spoke, const Fan& fan, std::size_t t, const Vec3& apex);
-    void add_wing(HalfEdge one, HalfEdge other, HalfEdge edge, const Fan& fan, std::size_t t, const Vec3& apex);
+    void add_spoke(HalfEdge h, const Fan& fan, std::size_t t, const Vec3& apex);
+    void add_wing(HalfEdge one, HalfEdge other, const Fan& fan, std::size_t t, const Vec3& apex);
     void add_side(HalfEdge side, const Fan& fan, std::size_t t);
-    [[nodiscard]] bool done() const { return old_.empty() || (!makes_blade_ && guard_->admits(old_, new_)); }
+    [[nodiscard]] HalfEdge side_of(const Fan& fan, std::size_t t) const;
+    template <class AddSpoke>
+    [[nodiscard]] bool try_fan(const Fan& fan, AddSpoke add);
+    [[nodiscard]] bool admitted() const { return old_.empty() || (!makes_blade_ && guard_->admits(old_, new_)); }
 
     const HalfEdgeMesh& mesh_;
     const LocalState& state_;

@@ -5,9 +5,21 @@
 #include <limits>
 
 namespace vsplit {
+namespace {
 
-DeviationGuard::DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit, std::uint32_t most_points)
-    : source_(source),
+/// A face at v that is no ghost's.
+std::uint32_t visible_face(const HalfEdgeMesh& mesh, const Border& border, std::uint32_t v) {
+    HalfEdge h = mesh.outgoing(v);
+    while (border.is_ghost(mesh.target(h)) || border.is_ghost(mesh.origin(prev(h)))) h = mesh.turn(h);
+    return face_of(h);
+}
+
+}  // namespace
+
+DeviationGuard::DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit, std::uint32_t most_points,
+                               const Border& border)
+    : border_(border.empty() ? nullptr : std::make_unique<BorderGuard>(mesh, border, limit)),
+      source_(source),
       limit_(limit),
       limit_square_(limit * limit),
       points_(mesh.vertex_count()),
@@ -16,9 +28,9 @@ DeviationGuard::DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& sou
     // Vertices are numbered along a curve through space, so every n-th of them are spread evenly.
     const std::uint32_t stride = 1 + mesh.vertex_count() / std::max(most_points, 1U);
     for (std::uint32_t v = 0; v < mesh.vertex_count(); v += stride) {
-        if (mesh.outgoing(v) == kNone) continue;
+        if (mesh.outgoing(v) == kNone || border.is_ghost(v)) continue;
         points_[v] = mesh.position(v);
-        std::uint32_t& first = first_[face_of(mesh.outgoing(v))];
+        std::uint32_t& first = first_[visible_face(mesh, border, v)];
         next_[v] = first;
         first = v;
     }

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "simplify/border_guard.h"
 #include "simplify/half_edge_mesh.h"
 #include "spatial/surface_index.h"
 
@@ -29,9 +31,13 @@ public:
         Vec3 old_normal = Vec3::Zero();
     };
 
-    /// Of the vertices about `most_points` are kept, evenly spread.
+    /// Of the vertices about `most_points` are kept, evenly spread. Boundaries are guarded too, ghosts and their faces are not.
     /// \pre `mesh` is the dense mesh, whose surface is the source's; `source` outlives this.
-    DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit, std::uint32_t most_points = kNone);
+    DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit, std::uint32_t most_points = kNone,
+                   const Border& border = {});
+
+    /// The guard of the open boundaries; null without any.
+    [[nodiscard]] BorderGuard* border() const { return border_.get(); }
 
     /// Whether `faces` may stand where those of `old_faces` are; if so their points go over to them. O(faces * points of them).
     [[nodiscard]] bool replace(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces);
@@ -52,6 +58,7 @@ private:
     [[nodiscard]] bool reaches_source(std::span<const NewFace> faces) const;
     [[nodiscard]] bool reached_by_source(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces);
 
+    std::unique_ptr<BorderGuard> border_;
     const SurfaceIndex& source_;
     const double limit_;
     const double limit_square_;

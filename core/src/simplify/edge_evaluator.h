@@ -47,8 +47,10 @@ public:
     [[nodiscard]] Evaluation evaluate(HalfEdge h) {
         const std::uint32_t i = mesh_.origin(h);
         const std::uint32_t j = mesh_.target(h);
+        if (!state_.border.may_join(i, j)) return {};
+        ghost_ = std::min(state_.border.ghost_beside(i), state_.border.ghost_beside(j));  // the same where there are two
         const std::uint32_t valence = mesh_.valence(i) + mesh_.valence(j) - 4;
-        if (valence < 3 || valence > kValenceCeiling || !policy_.admits_valence(valence)) return {};
+        if (valence < 3 || valence > kValenceCeiling || !policy_.admits_valence(valence - (ghost_ == kNone ? 0 : 1))) return {};
         if (!gather(h) || !policy_.eligible(before_)) return {};
         ends_ = {i, j};
         const Quadric quadric = state_.quadrics[i] + state_.quadrics[j];
@@ -56,6 +58,9 @@ public:
         if constexpr (Policy::kExtended) {
             if (!keeps_creases(h)) return {};
             evenness_ = evenness(h, valence);
+        }
+        if (ghost_ != kNone) return evaluate_at_boundary(i, j, quadric);
+        if constexpr (Policy::kExtended) {
             // Where several creases meet stays where it is.
             if (is_corner(creases_[0])) return attempt(quadric, mesh_.position(i) - centre_) ? valid_ : Evaluation{};
             if (is_corner(creases_[1])) return attempt(quadric, mesh_.position(j) - centre_) ? valid_ : Evaluation{};
@@ -77,10 +82,30 @@ public:
     [[nodiscard]] const Fan& fan() const { return fan_; }
 
 private:
+    /// The candidates of an edge with an end on a boundary, or both, when it lies along it.
+    [[nodiscard]] Evaluation evaluate_at_boundary(std::uint32_t i, std::uint32_t j, const Quadric& quadric) {
+        const Hold at_i = state_.border.hold(i), at_j = state_.border.hold(j);
+        const auto stay_at = [&](std::uint32_t v) { return attempt(quadric, mesh_.position(v) - centre_, mesh_.position(v)); };
+        if (at_i != at_j) return stay_at(at_i > at_j ? i : j) ? valid_ : Evaluation{};
+        if (at_i != Hold::kAlong) {
+            if (!within_tolerance(i, j)) return {};
+        } else if (Policy::kExtended && (is_corner(creases_[0]) || is_corner(creases_[1]))) {
+            return stay_at(is_corner(creases_[0]) ? i : j) ? valid_ : Evaluation{};
+        } else {
+            const Vec3 between = (fan_.ring(0) + fan_.ring(fan_.size())) / 2 - centre_;
+            if (attempt(quadric, project_to_minimum(quadric, between))) return valid_;
+            const Vec3 middle = (mesh_.position(i) + mesh_.position(j)) * 0.5 - centre_;
+            if (attempt(quadric, project_to_minimum(quadric, middle))) return valid_;
+        }
+        return stay_at(i) || stay_at(j) ? valid_ : Evaluation{};
+    }
+
     /// Whether k may stand at `place`, relative to the centre; valid_ is then the evaluation.
-    [[nodiscard]] bool attempt(const Quadric& quadric, const Vec3& place) {
+    [[nodiscard]] bool attempt(const Quadric& quadric, const Vec3& place) { return attempt(quadric, place, place + centre_); }
+
+    /// The same for a position whose bits are to stay; `place` is it, less the centre.
+    [[nodiscard]] bool attempt(const Quadric& quadric, const Vec3& place, const Vec3& position) {
         if (!(quadric.error(place) <= error_limit_)) return false;
-        const Vec3 position = place + centre_;
         if (!is_valid_position(position)) return false;  // rounding may step over the limit of coordinates
         const Fan::Shape shape = fan_.shape_at(position);
         if (shape.folds || !policy_.admits(before_, shape)) return false;
@@ -92,7 +117,7 @@ private:
     /// Whether no spoke would be longer than its ends allow.
     [[nodiscard]] bool sizes_admit(const Vec3& position) const {
         const double allowed = state_.sizes.between(mesh_, ends_[0], ends_[1], position);
-        for (std::size_t t = 0; t < fan_.size(); ++t) {
+        for (std::size_t t = 0; t < fan_.ring_size(); ++t) {
             if (!VertexSizes::fits(fan_.spoke(t), allowed, state_.sizes.allowed(fan_.vertex(t)))) return false;
         }
         return true;
@@ -111,8 +136,20 @@ private:
         before_ = before;
         // Each half begins with a vertex across the edge, which both ends share; the others must differ.
         if (share_vertex(1, at_i, at_i + 1, all)) return false;
-        fan_.close(all);
+        ghost_ == kNone ? fan_.close(all) : open_fan(h, all);
         return true;
+    }
+
+    /// Takes the ghost and its faces out of what gather() found.
+    void open_fan(HalfEdge h, std::size_t all) {
+        fan_.open_at(ghost_, all);
+        before_ = {0, 0, std::numeric_limits<double>::infinity(), 0, 0};
+        for (const HalfEdge side : {h, mesh_.twin(h)}) {
+            if (mesh_.origin(prev(side)) == ghost_) continue;
+            count(state_.faces[face_of(side)], before_);
+            before_.vanishing += 1;
+        }
+        for (std::size_t t = 0; t < fan_.size(); ++t) count(state_.faces[fan_.face(t)], before_);
     }
 
     /// Puts the faces counter-clockwise from that of `first` to the one before the face of `edge` into the fan, from place t on.
@@ -134,12 +171,16 @@ private:
         return t;
     }
 
+    [[nodiscard]] bool within_tolerance(std::uint32_t i, std::uint32_t j) const {
+        return (mesh_.position(i) - mesh_.position(j)).squaredNorm() <= tolerance_square_;
+    }
+
     [[nodiscard]] static bool is_corner(int creases) { return creases > 2; }
 
     /// Creases neither meet nor end where they did not: two vertices of creases join along a crease only, and two corners never,
     /// unless they are within the tolerance of each other.
     [[nodiscard]] bool keeps_creases(HalfEdge h) const {
-        if ((mesh_.position(mesh_.origin(h)) - mesh_.position(mesh_.target(h))).squaredNorm() <= tolerance_square_) return true;
+        if (within_tolerance(mesh_.origin(h), mesh_.target(h))) return true;
         if (mesh_.is_crease(h)) return !is_corner(creases_[0]) || !is_corner(creases_[1]);
         return creases_[0] == 0 || creases_[1] == 0;
     }
@@ -148,12 +189,29 @@ private:
     [[nodiscard]] double evenness(HalfEdge h, std::uint32_t valence_after) const {
         constexpr double kStrength = 0.03;
         const auto excess = [](double valence) { return (valence - 6) * (valence - 6); };
+        if (ghost_ != kNone) return evenness_at_boundary(h, valence_after, kStrength);
         const auto valence_of = [this](HalfEdge corner) { return static_cast<double>(mesh_.valence(mesh_.origin(corner))); };
         const HalfEdge g = mesh_.twin(h);
         const double e = valence_of(prev(h)), b = valence_of(prev(g));
         const double before = excess(valence_of(h)) + excess(valence_of(g)) + excess(e) + excess(b);
         const double after = excess(valence_after) + excess(e - 1) + excess(b - 1);
         return std::exp(kStrength * (before - after));
+    }
+
+    /// The same where ghosts are about, who do not count: on a boundary 4 edges are even, and the ghost's.
+    [[nodiscard]] double evenness_at_boundary(HalfEdge h, std::uint32_t valence_after, double strength) const {
+        const auto excess = [this](std::uint32_t v, double valence) {
+            if (state_.border.is_ghost(v)) return 0.0;
+            const double even = state_.border.ghost_beside(v) == kNone ? 6 : 5;
+            return (valence - even) * (valence - even);
+        };
+        const auto now = [&](std::uint32_t v) { return excess(v, mesh_.valence(v)); };
+        const std::uint32_t i = mesh_.origin(h), j = mesh_.target(h);
+        const std::uint32_t e = mesh_.origin(prev(h)), b = mesh_.origin(prev(mesh_.twin(h)));
+        const std::uint32_t k = state_.border.ghost_beside(i) == kNone ? j : i;
+        const double before = now(i) + now(j) + now(e) + now(b);
+        const double after = excess(k, valence_after) + excess(e, mesh_.valence(e) - 1.0) + excess(b, mesh_.valence(b) - 1.0);
+        return std::exp(strength * (before - after));
     }
 
     void count(const FaceState& face, Before& sums) const {
@@ -183,6 +241,7 @@ private:
     std::array<std::uint32_t, 2> ends_{};
     double error_limit_ = 0;  // of the edge at hand
     double evenness_ = 1;
+    std::uint32_t ghost_ = kNone;   // of the boundary that an end of the edge lies on
     std::array<int, 2> creases_{};  // edges at either end that are creases; extended mode only
 };
 

@@ -96,9 +96,16 @@ bool EdgeFlipper::guard_admits(const Quad& quad, HalfEdge h) {
     return guard_->replace(std::array{left, right}, faces);
 }
 
+bool EdgeFlipper::is_beside_ghost(HalfEdge h) const {
+    if (state_.border.empty()) return false;
+    const HalfEdge g = mesh_.twin(h);
+    const std::uint32_t least = std::min({mesh_.origin(h), mesh_.origin(g), mesh_.origin(prev(h)), mesh_.origin(prev(g))});
+    return state_.border.is_ghost(least);
+}
+
 bool EdgeFlipper::flip_if_better(HalfEdge h) {
     const HalfEdge g = mesh_.twin(h);
-    if (mesh_.is_crease(h)) return false;
+    if (mesh_.is_crease(h) || is_beside_ghost(h)) return false;
     if (std::min(state_.faces[face_of(h)].stretch, state_.faces[face_of(g)].stretch) > kGoodEnough) return false;
     const Quad quad(mesh_, state_, h);
     if (!may_flip(quad) || !creases_.try_flip(h, quad.left.normal, quad.right.normal) || !guard_admits(quad, h)) return false;

@@ -37,6 +37,7 @@ private:
 
     void flip_open_edges();
     [[nodiscard]] bool flip_if_better(HalfEdge h);
+    [[nodiscard]] bool is_beside_ghost(HalfEdge h) const;
     [[nodiscard]] bool may_flip(const Quad& quad) const;
     [[nodiscard]] bool guard_admits(const Quad& quad, HalfEdge h);
     [[nodiscard]] bool has_edge(std::uint32_t from, std::uint32_t to) const;

@@ -111,9 +111,23 @@ VSPLIT_VECTOR_CLONES void fan_faces(std::size_t n, const FanIn& in, const FanOut
 
 void Fan::close(std::size_t faces) {
     size_ = faces;
+    ring_size_ = faces;
     x_[size_] = x_[0];
     y_[size_] = y_[0];
     z_[size_] = z_[0];
+    ring_lengths(whole_vectors(size_), x_.data(), y_.data(), z_.data(), ring_length_.data());
+}
+
+void Fan::open_at(std::uint32_t ghost, std::size_t count) {
+    const auto at = std::find(vertex_.begin(), vertex_.begin() + count, ghost) - vertex_.begin();
+    const auto turn = [at, count](auto& column) {
+        std::rotate(column.begin(), column.begin() + (at + 1) % static_cast<std::ptrdiff_t>(count), column.begin() + count);
+    };
+    turn(vertex_);
+    turn(face_);
+    for (Column* column : {&x_, &y_, &z_, &old_nx_, &old_ny_, &old_nz_}) turn(*column);
+    ring_size_ = count - 1;
+    size_ = count - 2;
     ring_lengths(whole_vectors(size_), x_.data(), y_.data(), z_.data(), ring_length_.data());
 }
 
@@ -125,8 +139,8 @@ double Fan::defect() const {
 
 Vec3 Fan::centroid() const {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t t = 0; t < size_; ++t) sum += Vec3(x_[t], y_[t], z_[t]);
-    return sum / static_cast<double>(size_);
+    for (std::size_t t = 0; t < ring_size_; ++t) sum += Vec3(x_[t], y_[t], z_[t]);
+    return sum / static_cast<double>(ring_size_);
 }
 
 Fan::Shape Fan::shape_at(const Vec3& position) {

@@ -1,14 +1,17 @@
 #include "simplify/half_edge_mesh.h"
 
+#include "vsplit/mrr/multires_mesh.h"
+
 namespace vsplit {
 
-HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh)
+HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh, std::uint32_t ghosts)
     : half_edges_(mesh.faces.size() * 3),
       creases_(mesh.faces.size() * 3, 0),
       outgoing_(mesh.positions.size(), kNone),
       valence_(mesh.positions.size(), 0),
       positions_(mesh.positions),
-      live_faces_(mesh.face_count()) {
+      ghosts_(ghosts),
+      live_faces_(mesh.face_count() - count_ghost_faces(mesh, ghosts)) {
     const std::vector<HalfEdge> twins = half_edge_twins(mesh);
     for (HalfEdge h = 0; h < twins.size(); ++h) {
         const std::uint32_t v = vsplit::origin(mesh, h);
@@ -54,7 +57,7 @@ void HalfEdgeMesh::collapse(const EdgeStar& s, const Vec3& position) {
     --valence_[e];
     --valence_[b];
     positions_[i] = position;
-    live_faces_ -= 2;
+    live_faces_ -= std::min(e, b) < ghosts_ ? 1 : 2;
 }
 
 void HalfEdgeMesh::flip(HalfEdge h) {

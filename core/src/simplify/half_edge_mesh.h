@@ -22,11 +22,13 @@ struct EdgeStar {
 /// Positions live here too, since every walk needs them.
 class HalfEdgeMesh {
 public:
+    /// The first `ghosts` vertices close open boundaries (see CappedMesh).
     /// \pre `mesh` is a closed, consistently oriented 2-manifold.
-    explicit HalfEdgeMesh(const TriangleMesh& mesh);
+    explicit HalfEdgeMesh(const TriangleMesh& mesh, std::uint32_t ghosts = 0);
 
     [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions_.size()); }
     [[nodiscard]] HalfEdge half_edge_count() const { return static_cast<HalfEdge>(half_edges_.size()); }
+    /// Visible ones: those at a ghost do not count.
     [[nodiscard]] std::uint32_t live_faces() const { return live_faces_; }
 
     [[nodiscard]] std::uint32_t origin(HalfEdge h) const { return half_edges_[h].origin; }
@@ -45,7 +47,7 @@ public:
 
     [[nodiscard]] EdgeStar star(HalfEdge h) const;
 
-    /// Collapses j into i, which moves to `position`. Two faces and one vertex fewer.
+    /// Collapses j into i, which moves to `position`. Two faces and one vertex fewer; on a boundary one of the two is a ghost's.
     /// \pre the link condition holds for the edge. O(valence of j).
     void collapse(const EdgeStar& star, const Vec3& position);
 
@@ -96,6 +98,7 @@ private:
     std::vector<HalfEdge> outgoing_;
     std::vector<std::uint32_t> valence_;
     std::vector<Vec3> positions_;
+    std::uint32_t ghosts_ = 0;
     std::uint32_t live_faces_ = 0;
 };
 

@@ -8,6 +8,7 @@ LocalState initial_state(const SimplifyInput& input) {
     LocalState state;
     state.quadrics = input.quadrics;
     state.sizes = VertexSizes(input.sizes, input.usual_size, input.sizes_bind);
+    state.border = Border(input.mesh, input.ghosts, input.boundary_corners, input.freeze_boundary);
     state.faces.resize(input.mesh.faces.size());
     for (std::uint32_t f = 0; f < input.mesh.face_count(); ++f) {
         const Triangle& t = input.mesh.faces[f];

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "simplify/border.h"
 #include "simplify/simplify.h"
 #include "simplify/vertex_sizes.h"
 
@@ -19,6 +20,7 @@ struct LocalState {
     std::vector<FaceState> faces;
     std::vector<Quadric> quadrics;
     VertexSizes sizes;
+    Border border;
 };
 
 /// The state before the first collapse. O(faces).

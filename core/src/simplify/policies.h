@@ -16,6 +16,7 @@ struct Before {
     double stretch_sum = 0;
     double stretch_min = 0;
     double weight_sum = 0;  ///< of the policy's face_weight
+    double vanishing = 2;   ///< of the faces; on a boundary one
 };
 
 /// q(F) of the faces after a collapse, [Date05] Eq. 8: min St * mean St, at most 1.
@@ -74,10 +75,11 @@ struct ControlPolicy : StrictRules {
         const bool mends = only_violators && after.stretch_min > before.stretch_min;
         return (after.stretch_min >= min_stretch || mends) && after.size_max <= max_size;
     }
-    /// With n faces after, 1 / (2 (n - 1)) * min St * sum St = n / (2 (n - 1)) * shape quality; n = faces before - 2.
+    /// With n faces after, 1 / (2 (n - 1)) * min St * sum St = n / (2 (n - 1)) * shape quality. Inside n is at least 3; at the
+    /// end of a boundary it may be 1.
     [[nodiscard]] static double factor(const Before& before) {
-        const double n = before.faces - 2;
-        return before.weight_sum * n / (2 * (n - 1));
+        const double n = before.faces - before.vanishing;
+        return before.weight_sum * n / (2 * std::max(n - 1, 1.0));
     }
 
 private:

@@ -48,7 +48,7 @@ public:
         : input_(std::move(input)),
           policy_(policy),
           context_(context),
-          mesh_(input_.mesh),
+          mesh_(input_.mesh, input_.ghosts),
           state_(initial_state(input_)),
           queue_(mesh_.half_edge_count()),
           out_of_reach_(mesh_.half_edge_count(), 0),
@@ -66,13 +66,14 @@ public:
         input_.quadrics = {};
         input_.creases = {};
         input_.sizes = {};
+        input_.boundary_corners = {};
     }
 
     [[nodiscard]] Expected<MultiresMesh> run() {
         Status done = Policy::kExtended ? collapse_and_polish() : collapse_in_phases(input_.faces_min);
         if (!done) return done.error();
         context_.report({"simplify", 1, mesh_.live_faces()});
-        return log_.build(mesh_);
+        return log_.build(mesh_, input_.ghosts);
     }
 
 private:
@@ -88,7 +89,7 @@ private:
     [[nodiscard]] std::unique_ptr<DeviationGuard> make_guard() const {
         if (!input_.source) return nullptr;
         return std::make_unique<DeviationGuard>(mesh_, *input_.source, input_.max_deviation,
-                                                kPointsAFace * std::min(input_.faces, mesh_.live_faces()));
+                                                kPointsAFace * std::min(input_.faces, mesh_.live_faces()), state_.border);
     }
 
     [[nodiscard]] std::unique_ptr<CreaseGuard> make_crease_guard() const {
@@ -105,8 +106,10 @@ private:
     }
 
     void mark_crease(HalfEdge h) {
-        const float cosine = state_.faces[face_of(h)].normal.dot(state_.faces[face_of(mesh_.twin(h))].normal);
-        cosine < input_.crease_cosine ? mesh_.mark_crease(h) : mesh_.mark_kept_flat(h);
+        const HalfEdge g = mesh_.twin(h);
+        const bool inside = !state_.border.is_ghost(mesh_.origin(prev(h))) && !state_.border.is_ghost(mesh_.origin(prev(g)));
+        const float cosine = state_.faces[face_of(h)].normal.dot(state_.faces[face_of(g)].normal);
+        inside&& cosine < input_.crease_cosine ? mesh_.mark_crease(h) : mesh_.mark_kept_flat(h);
     }
 
     /// Whether a collapse leaves no fewer than `faces`.
@@ -203,7 +206,8 @@ private:
     [[nodiscard]] bool guards_admit(const EdgeStar& star, const Vec3& position) {
         const Fan& fan = evaluator_.fan();
         if (!creases_.try_collapse(star, fan, position)) return false;
-        return !guard_ || replacement_.try_on(*guard_, fan, position, {face_of(star.ij), face_of(star.ji)});
+        return !guard_ || replacement_.try_on(*guard_, fan, position, {face_of(star.ij), face_of(star.ji)},
+                                              {mesh_.origin(star.ij), mesh_.origin(star.ji)});
     }
 
     void collapse(HalfEdge edge) {
@@ -217,9 +221,9 @@ private:
         }
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
         log_.record(mesh_, star);
-        const std::uint32_t kept = mesh_.origin(star.ij);
-        const std::uint32_t removed = mesh_.origin(star.ji);
+        const std::uint32_t kept = mesh_.origin(star.ij), removed = mesh_.origin(star.ji);
         state_.quadrics[kept] += state_.quadrics[removed];
+        state_.border.join(kept, removed);
         if (state_.sizes.given()) state_.sizes.put(kept, state_.sizes.between(mesh_, kept, removed, evaluation.position));
         mesh_.collapse(star, evaluation.position);
         creases_.commit();
@@ -252,9 +256,9 @@ private:
     void update_faces(std::uint32_t kept) {
         const Fan& fan = evaluator_.fan();
         ring_.clear();
+        for (std::size_t t = 0; t < fan.ring_size(); ++t) ring_.push_back(fan.vertex(t));
         for (std::size_t t = 0; t < fan.size(); ++t) {
-            ring_.push_back(fan.vertex(t));
-            const std::uint32_t after = fan.vertex(t + 1 < fan.size() ? t + 1 : 0);
+            const std::uint32_t after = fan.vertex(t + 1 < fan.ring_size() ? t + 1 : 0);
             state_.faces[fan.face(t)] = {fan.normal(t), fan.stretch(t),
                                          state_.sizes.relative(fan.face_size(t), kept, fan.vertex(t), after)};
         }

@@ -30,19 +30,28 @@ constexpr std::array<std::pair<double, double>, 8> kPattern{{{1, 0},
 }  // namespace
 
 bool VertexMover::gather_star(std::uint32_t v) {
-    if (mesh_.valence(v) > Fan::kCapacity) return false;
+    if (mesh_.valence(v) > Fan::kCapacity || state_.border.hold(v) > Hold::kAlong) return false;
     vertex_ = v;
     std::size_t t = 0;
     mesh_.for_each_outgoing(v, [&](HalfEdge h) {
         const std::uint32_t r = mesh_.target(h);
         star_.put(t++, r, mesh_.position(r), face_of(h), state_.faces[face_of(h)].normal);
     });
-    star_.close(t);
+    const std::uint32_t ghost = state_.border.ghost_beside(v);
+    ghost == kNone ? star_.close(t) : star_.open_at(ghost, t);
     shape_ = star_.shape_at(mesh_.position(v));
     quadric_ = state_.quadrics[v];
     error_limit_ = mean_error_limit(quadric_, limits_.tolerance * limits_.tolerance);
     size_limit_ = std::max(limits_.max_size, shape_.size_max);
     return true;
+}
+
+/// `wanted`, or of it what lies along the boundary where the star is open.
+Vec3 VertexMover::along_boundary(const Vec3& here, const Vec3& wanted) const {
+    if (!star_.is_open()) return wanted;
+    const Vec3 way = star_.ring(0) - star_.ring(star_.size());
+    const double square = way.squaredNorm();
+    return square > 0 ? Vec3(here + (wanted - here).dot(way) / square * way) : here;
 }
 
 /// Where each face would be equilateral over its ring edge, in the mean.
@@ -67,7 +76,7 @@ bool VertexMover::admits(const Vec3& place) {
 bool VertexMover::sizes_admit(const Vec3& position) const {
     if (!state_.sizes.binding()) return true;
     const double allowed = state_.sizes.around(mesh_, vertex_, position);
-    for (std::size_t t = 0; t < star_.size(); ++t) {
+    for (std::size_t t = 0; t < star_.ring_size(); ++t) {
         const double before = (star_.ring(t) - mesh_.position(vertex_)).norm();
         if (star_.spoke(t) > before && !VertexSizes::fits(star_.spoke(t), allowed, state_.sizes.allowed(star_.vertex(t))))
             return false;
@@ -77,14 +86,14 @@ bool VertexMover::sizes_admit(const Vec3& position) const {
 
 void VertexMover::put(std::uint32_t v, const Vec3& place) {
     static_cast<void>(star_.shape_at(place + limits_.centre));
-    if (!creases_.try_move(v, star_, place + limits_.centre)) return;
-    if (guard_ != nullptr && !replacement_.try_on(*guard_, star_, place + limits_.centre, {})) return;
+    if (!creases_.try_move(star_, place + limits_.centre)) return;
+    if (guard_ != nullptr && !replacement_.try_on(*guard_, star_, place + limits_.centre, {}, {v, kNone})) return;
     log_.record_move(v, mesh_.position(v));
     if (state_.sizes.given()) state_.sizes.put(v, state_.sizes.around(mesh_, v, place + limits_.centre));
     mesh_.move(v, place + limits_.centre);
     creases_.commit();
     for (std::size_t t = 0; t < star_.size(); ++t) {
-        const std::uint32_t after = star_.vertex(t + 1 < star_.size() ? t + 1 : 0);
+        const std::uint32_t after = star_.vertex(t + 1 < star_.ring_size() ? t + 1 : 0);
         state_.faces[star_.face(t)] = {star_.normal(t), star_.stretch(t),
                                        state_.sizes.relative(star_.face_size(t), v, star_.vertex(t), after)};
     }
@@ -97,7 +106,7 @@ void VertexMover::relax(std::uint32_t v) {
     double least = star_.defect() - kLeastGain;
     Vec3 best = here;
     for (const Vec3& wanted : {target, Vec3(star_.centroid() - limits_.centre), Vec3((target + here) / 2)}) {
-        const Vec3 place = project_to_minimum(quadric_, wanted);
+        const Vec3 place = project_to_minimum(quadric_, along_boundary(here, wanted));
         if (!admits(place) || !(star_.defect() < least)) continue;
         least = star_.defect();
         best = place;
@@ -118,7 +127,7 @@ void VertexMover::lift(std::uint32_t v, double goal) {
     for (int halving = 0; halving < kHalvings;) {
         bool better = false;
         for (const auto& [x, y] : kPattern) {
-            const Vec3 place = project_to_minimum(quadric_, best + step * (x * u + y * w));
+            const Vec3 place = project_to_minimum(quadric_, along_boundary(best, best + step * (x * u + y * w)));
             if (!admits(place) || !(shape_.stretch_min > most + kLeastGain)) continue;
             most = shape_.stretch_min;
             best = place;

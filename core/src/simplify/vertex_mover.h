@@ -14,7 +14,8 @@
 namespace vsplit {
 
 /// Moves vertices along the surface where the faces around them get a better shape. A vertex stays at the minimum of its quadric
-/// across the surface, so one on a crease moves along it and a corner not at all. Tells the log.
+/// across the surface, so one on a crease moves along it and a corner not at all; one on an open boundary moves along that, and
+/// not at all where it is a corner or frozen. Tells the log.
 class VertexMover {
 public:
     VertexMover(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits)
@@ -33,6 +34,7 @@ public:
 
 private:
     [[nodiscard]] bool gather_star(std::uint32_t v);
+    [[nodiscard]] Vec3 along_boundary(const Vec3& here, const Vec3& wanted) const;
     [[nodiscard]] Vec3 ideal() const;
     [[nodiscard]] bool admits(const Vec3& place);
     [[nodiscard]] bool sizes_admit(const Vec3& position) const;

@@ -1,16 +1,11 @@
 #include "vsplit/subdivide/subdivide.h"
 
-#include <cmath>
-#include <string>
-
-#include "base/number_text.h"
+#include "subdivide/face_limit.h"
 #include "subdivide/midpoints.h"
 #include "vsplit/quality/stretch.h"
 
 namespace vsplit {
 namespace {
-
-constexpr std::uint32_t kMaxTimes = 12;
 
 Vec3 middle_of(const Vec3& a, const Vec3& b) { return (a + b) * 0.5; }
 
@@ -54,41 +49,15 @@ std::uint64_t predict_subdivision(const TriangleMesh& mesh, double max_edge, std
 
 Expected<SubdividedMesh> subdivide_to_size(const TriangleMesh& mesh, double max_edge, std::uint32_t face_limit,
                                            const ExecutionContext& context) {
-    if (!(max_edge > 0) || !std::isfinite(max_edge)) {
-        return Error{Cause::kInvalidOption, "the subdivision size is " + number_text(max_edge) + "; a positive length is needed",
-                     "subdivision_size"};
-    }
-    if (mesh.face_count() > face_limit) {
-        return Error{Cause::kLimitExceeded,
-                     "the mesh has " + std::to_string(mesh.face_count()) + " faces; the limit is " + std::to_string(face_limit),
-                     "subdivision_size"};
-    }
+    if (Status valid = check_subdivision(mesh, max_edge, face_limit); !valid) return valid.error();
     const std::uint64_t predicted = predict_subdivision(mesh, max_edge, face_limit);
-    if (predicted > face_limit) {
-        return Error{Cause::kLimitExceeded,
-                     "subdividing to edges of " + number_text(max_edge) + " makes more than " + std::to_string(face_limit) +
-                         " faces, the limit; a subdivision size of " + number_text(fitting_max_edge(mesh, face_limit)) + " fits",
-                     "subdivision_size"};
-    }
+    if (predicted > face_limit) return too_many_faces(max_edge, face_limit, fitting_max_edge(mesh, face_limit));
     return subdivide_by(mesh, UniformSize{max_edge}, point_of(mesh), predicted, context);
 }
 
 Expected<SubdividedMesh> subdivide_one_to_four(const TriangleMesh& mesh, std::uint32_t times, std::uint32_t face_limit,
                                                const ExecutionContext& context) {
-    if (times > kMaxTimes) {
-        return Error{Cause::kInvalidOption,
-                     std::to_string(times) + " subdivisions; 0 to " + std::to_string(kMaxTimes) + " are possible",
-                     "subdivisions"};
-    }
-    std::uint32_t fitting = 0;
-    while (fitting < times && (std::uint64_t{mesh.face_count()} << (2 * (fitting + 1))) <= face_limit) ++fitting;
-    if (fitting < times || mesh.face_count() > face_limit) {
-        return Error{Cause::kLimitExceeded,
-                     std::to_string(times) + " one-to-four subdivisions of " + std::to_string(mesh.face_count()) +
-                         " faces make more than " + std::to_string(face_limit) + ", the limit; " + std::to_string(fitting) +
-                         " fit",
-                     "subdivisions"};
-    }
+    if (Status valid = check_times(mesh, times, face_limit); !valid) return valid.error();
     auto current = start_subdivision<EveryEdge>(mesh, point_of(mesh));
     for (std::uint32_t round = 0; round < times; ++round) {
         if (context.cancelled()) return ExecutionContext::cancelled_error();

@@ -46,7 +46,8 @@ struct MeshReport {
     std::uint32_t non_manifold_edges = 0;
     std::uint32_t inconsistent_edges = 0;
     std::uint32_t non_manifold_vertices = 0;
-    std::uint32_t degenerate_faces = 0;  ///< stretch under 1e-9
+    std::vector<std::uint32_t> boundary_touches;  ///< the first kExamples of those at which the boundary touches itself
+    std::uint32_t degenerate_faces = 0;           ///< stretch under 1e-9
     std::uint32_t duplicate_faces = 0;
     BoundingBox box;
     Quality quality;
@@ -57,12 +58,12 @@ struct MeshReport {
 /// bytes a face of memory. \pre every index is below the number of vertices (what `read_mesh` and `weld` return).
 [[nodiscard]] MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld = {});
 
-/// Whether the methods accept this mesh: closed, manifold and consistently oriented, no two faces on the same three
-/// vertices.
+/// Whether a mesh is closed, manifold and consistently oriented, no two faces on the same three vertices.
 /// \return NON_MANIFOLD or OPEN_MESH naming the first edges at fault, EMPTY_INPUT for no faces.
 [[nodiscard]] Status require_closed_manifold(const MeshReport& report);
 
-/// The same, open boundaries allowed. \return NON_MANIFOLD naming the first edges or vertices at fault, EMPTY_INPUT for no faces.
+/// Whether the methods accept this mesh: as above, but it may have open boundaries that do not touch themselves.
+/// \return NON_MANIFOLD naming the first edges or vertices at fault, EMPTY_INPUT for no faces.
 [[nodiscard]] Status require_manifold(const MeshReport& report);
 
 }  // namespace vsplit

@@ -18,7 +18,8 @@ namespace vsplit {
 /// and bounds the deviation, see docs/method.md; max_deviation that cannot be met is reported in `violations`.
 ///
 /// Stages: "inspect", "subdivide", "evaluate", "simplify", and "measure" in EXTENDED. The same input and options give the same
-/// bits for any thread count. \return EMPTY_INPUT, NON_MANIFOLD or OPEN_MESH for a mesh that is not a closed 2-manifold;
+/// bits for any thread count. Open boundaries and components are kept, see docs/method.md.
+/// \return EMPTY_INPUT or NON_MANIFOLD for a mesh that is no 2-manifold, such as one whose boundary touches itself;
 /// INVALID_OPTION, UNSUPPORTED,
 ///         LIMIT_EXCEEDED, CANCELLED.
 /// Complexity: O(n log n) in the faces after subdivision, for bounded valence. Memory: about 250 bytes a face.

@@ -42,6 +42,8 @@ struct ImproveOptions {
     std::vector<std::uint32_t> regions{};       ///< an id a face of the source; borders between ids are creases. Default none
     std::optional<SizingOptions> sizing{};  ///< edges no longer than a place on the surface allows. Default: no bound, but see
                                             ///< docs/method.md for what sizes follow where `faces` is not given
+    /// Every resolution has exactly the source's open boundaries, vertices and edges; no effect on a closed mesh. Default false
+    std::optional<bool> freeze_boundary{};
 };
 
 /// What `control` may be asked for. Lengths in model units.
@@ -61,6 +63,7 @@ struct ControlOptions {
     std::vector<std::uint32_t> marked_edges{};            ///< as in ImproveOptions
     std::vector<std::uint32_t> regions{};                 ///< as in ImproveOptions
     std::optional<SizingOptions> sizing{};                ///< as in ImproveOptions; max_size bounds it too
+    std::optional<bool> freeze_boundary{};                ///< as in ImproveOptions
 };
 
 /// What either method is asked for; which one says which method it is.
