@@ -8,12 +8,19 @@
 
 namespace vsplit {
 
+/// A mesh and its creases.
+struct CreasedMesh {
+    TriangleMesh mesh;
+    std::vector<SharpEdge> creases;
+};
+
 /// What both methods hand to the simplifier, defaults filled in.
 struct PrepareOptions {
     FeatureOptions features;
     double tolerance = 0;
     std::uint32_t faces_min = 0;
     std::uint32_t faces = 0;
+    std::shared_ptr<const CreasedMesh> mended{};  ///< what was subdivided in place of the source; null: the source itself
 };
 
 /// Normals, creases and quadrics of a subdivided mesh. Normals are those of the source's faces: subdivision does not change the

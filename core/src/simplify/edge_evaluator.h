@@ -83,6 +83,7 @@ private:
         if (!is_valid_position(position)) return false;  // rounding may step over the limit of coordinates
         const Fan::Shape shape = fan_.shape_at(position);
         if (shape.folds || !policy_.admits(before_, shape)) return false;
+        if (policy_.shaped() && !policy_.admits_excess(before_, fan_.excess(policy_, position))) return false;
         valid_ = {Evaluation::Verdict::kValid, evenness_ * policy_.factor(before_) * shape_quality(shape, fan_.size()), position};
         return true;
     }
@@ -101,7 +102,19 @@ private:
         // Each half begins with a vertex across the edge, which both ends share; the others must differ.
         if (share_vertex(1, at_i, at_i + 1, all)) return false;
         fan_.close(all);
+        if (policy_.shaped()) before_.excess = excess_before(h, at_i);
         return true;
+    }
+
+    /// Of the faces in the fan, the first `at_i` around one end, and of the two that vanish.
+    [[nodiscard]] Excess excess_before(HalfEdge h, std::size_t at_i) const {
+        const HalfEdge g = mesh_.twin(h);
+        const Vec3& i = mesh_.position(mesh_.origin(h));
+        const Vec3& j = mesh_.position(mesh_.origin(g));
+        Excess all = fan_.excess(policy_, i, 0, at_i);
+        all.add(fan_.excess(policy_, j, at_i, fan_.size()));
+        for (const HalfEdge across : {h, g}) all.add(policy_.excess({i, j, mesh_.position(mesh_.origin(prev(across)))}));
+        return all;
     }
 
     /// Puts the faces counter-clockwise from that of `first` to the one before the face of `edge` into the fan, from place t on.

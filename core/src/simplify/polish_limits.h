@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "quality/face_bounds.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
@@ -13,6 +14,7 @@ struct PolishLimits {
     double tolerance = 0;        ///< length: of a move's quadric error, and of the gap a flip may open or close
     double max_size = std::numeric_limits<double>::infinity();  ///< longest edge
     std::uint32_t max_valence = std::numeric_limits<std::uint32_t>::max();
+    FaceBounds bounds{};
 };
 
 /// Gains of stretch below this are not worth a record.

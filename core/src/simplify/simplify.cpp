@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "simplify/collapse_log.h"
@@ -65,7 +66,7 @@ public:
     }
 
     [[nodiscard]] Expected<MultiresMesh> run() {
-        Status done = Policy::kExtended ? collapse_and_polish() : collapse_in_phases(input_.faces_min);
+        Status done = Policy::kExtended ? collapse_and_polish() : mend_and_collapse();
         if (!done) return done.error();
         context_.report({"simplify", 1, mesh_.live_faces()});
         return log_.build(mesh_);
@@ -78,7 +79,28 @@ private:
             limits.max_size = policy.max_size;
             limits.max_valence = policy.max_valence;
         }
+        limits.bounds = policy;
         return limits;
+    }
+
+    /// Bounds beside that on stretch, whose violators the phases of the paper mend.
+    [[nodiscard]] bool bounds_need_mending() const {
+        if constexpr (requires { policy_.max_valence; }) {
+            return policy_.shaped() || policy_.max_valence < std::numeric_limits<std::uint32_t>::max();
+        }
+        return false;
+    }
+
+    /// The strict mode: flips only, only before the first collapse, and only where a bound is broken that collapses hardly mend.
+    [[nodiscard]] Status mend_and_collapse() {
+        if (bounds_need_mending()) polisher_.mend(false, context_);
+        return collapse_in_phases(input_.faces_min);
+    }
+
+    /// Vertices of too many edges are seldom mended later: faces around them have no room.
+    void polish(int relaxations, int lifts, bool asked) {
+        polisher_.polish(relaxations, lifts, context_);
+        if (asked || bounds_need_mending()) polisher_.mend(true, context_);
     }
 
     [[nodiscard]] std::unique_ptr<DeviationGuard> make_guard() const {
@@ -100,14 +122,14 @@ private:
 
     /// From checkpoint to checkpoint, so that no resolution is far from a polished one.
     [[nodiscard]] Status collapse_and_polish() {
-        polisher_.polish(kDenseRelaxations, 0, context_);
+        polish(kDenseRelaxations, 0, false);
         for (std::uint32_t faces = mesh_.live_faces(); has_collapses_above(input_.faces_min);) {
             const std::uint32_t goal = next_checkpoint(faces);
             if (Status done = collapse_in_phases(goal); !done) return done;
             // Polishing makes some more collapses valid, but ever fewer.
             const bool stuck = has_collapses_above(goal) && mesh_.live_faces() > kStuckShare * faces;
             const bool final = goal == input_.faces || (stuck && mesh_.live_faces() > input_.faces);
-            polisher_.polish(final ? kFinalRelaxations : kCheckpointRelaxations, final ? kFinalLifts : 0, context_);
+            polish(final ? kFinalRelaxations : kCheckpointRelaxations, final ? kFinalLifts : 0, final);
             if (context_.cancelled()) return ExecutionContext::cancelled_error();
             if (stuck) break;
             faces = mesh_.live_faces();

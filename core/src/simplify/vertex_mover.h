@@ -12,7 +12,7 @@
 namespace vsplit {
 
 /// Moves vertices along the surface where the faces around them get a better shape. A vertex stays at the minimum of its quadric
-/// across the surface, so one on a crease moves along it and a corner not at all. Tells the log.
+/// across the surface, so one on a crease moves along it and a corner not at all. No bound breaks that held. Tells the log.
 class VertexMover {
 public:
     /// `guard` may be null.
@@ -25,11 +25,19 @@ public:
     /// Where a face around v has a stretch under `goal`, searches nearby for a place that raises the least one. O(valence).
     void lift(std::uint32_t v, double goal);
 
+    /// Where a face around v breaks a bound, searches nearby for a place where they lack less to keep them. Whether v moved.
+    /// O(valence).
+    bool mend(std::uint32_t v);
+
 private:
     [[nodiscard]] bool gather_star(std::uint32_t v);
     [[nodiscard]] Vec3 ideal() const;
     [[nodiscard]] bool admits(const Vec3& place);
-    void put(std::uint32_t v, const Vec3& place);
+    [[nodiscard]] bool keeps_bounds(const Vec3& position) const;
+    /// Steps of a pattern to where value_at(position) is largest. Whether the vertex moved.
+    template <class Value>
+    [[nodiscard]] bool search(std::uint32_t v, Value value_at);
+    [[nodiscard]] bool put(std::uint32_t v, const Vec3& place);
 
     HalfEdgeMesh& mesh_;
     LocalState& state_;
@@ -43,6 +51,8 @@ private:
     Quadric quadric_;
     double error_limit_ = 0;
     double size_limit_ = 0;
+    double stretch_limit_ = 0;
+    Excess excess_before_;  // where bounds beside that on stretch are given
 };
 
 }  // namespace vsplit
