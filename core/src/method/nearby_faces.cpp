@@ -32,10 +32,10 @@ private:
 };
 
 /// The coarsest and the finest level that are near enough.
-std::pair<std::size_t, std::size_t> range(const MultiresMesh& mrr, double faces, bool given) {
+std::pair<std::size_t, std::size_t> range(const MultiresMesh& mrr, double faces, bool given, bool any_coarser) {
     const auto level = [&](double of_faces) { return mrr.level_for(static_cast<std::uint32_t>(std::min(of_faces, 4e9))); };
     if (given) return {level((1 - kNearShare) * faces), level((1 + kNearShare) * faces)};
-    return {level(kCoarsestShare * faces), mrr.levels()};
+    return {any_coarser ? 0 : level(kCoarsestShare * faces), mrr.levels()};
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ std::pair<std::size_t, std::size_t> range(const MultiresMesh& mrr, double faces,
 std::uint32_t faces_that_keep_bounds(const MultiresMesh& mrr, const ControlOptions& options, bool given) {
     const std::uint32_t faces = *options.faces;
     const std::size_t asked = mrr.level_for(faces);
-    const auto [coarsest, finest] = range(mrr, faces, given);
+    const auto [coarsest, finest] = range(mrr, faces, given, options.min_size.has_value());
     LevelWalker walker(mrr);
     const auto holds = [&](std::size_t level) { return find_violations(walker.at(level), options).empty(); };
     if (holds(asked)) return faces;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "quality/face_shape.h"
@@ -40,18 +41,18 @@ struct FaceFigures {
 struct Excess {
     double worst = 0;  ///< of one face
     double sum = 0;
+    std::uint8_t kinds = 0;  ///< a bit for each bound that is broken
 
-    void add(double of_face) {
-        worst = std::max(worst, of_face);
-        sum += of_face;
-    }
     void add(const Excess& other) {
         worst = std::max(worst, other.worst);
         sum += other.sum;
+        kinds |= other.kinds;
     }
     [[nodiscard]] bool none() const { return sum == 0; }
-    /// Less in all, and nowhere more than the worst face before.
-    [[nodiscard]] bool lessens(const Excess& before) const { return worst <= before.worst && sum < before.sum; }
+    /// Less in all, nowhere more than the worst face before, and by no bound that held on all faces.
+    [[nodiscard]] bool lessens(const Excess& before) const {
+        return worst <= before.worst && sum < before.sum && (kinds | before.kinds) == before.kinds;
+    }
     /// What a flip or a move may leave where `before` was.
     [[nodiscard]] bool may_follow(const Excess& before) const { return none() || lessens(before); }
 };
@@ -79,8 +80,18 @@ struct FaceBounds {
     }
     [[nodiscard]] double lacks_aspect(const FaceFigures& face) const { return share_under(1 / face.aspect(), 1 / max_aspect); }
 
-    [[nodiscard]] double excess(const FaceFigures& face) const {
-        return lacks_stretch(face) + lacks_size(face) + lacks_min_angle(face) + lacks_max_angle(face) + lacks_aspect(face);
+    /// All that it lacks.
+    [[nodiscard]] Excess excess(const FaceFigures& face) const {
+        Excess all;
+        std::uint8_t kind = 1;
+        for (const double lack :
+             {lacks_stretch(face), lacks_size(face), lacks_min_angle(face), lacks_max_angle(face), lacks_aspect(face)}) {
+            all.sum += lack;
+            if (lack > 0) all.kinds |= kind;
+            kind = static_cast<std::uint8_t>(kind << 1U);
+        }
+        all.worst = all.sum;
+        return all;
     }
 
 private:

@@ -103,7 +103,8 @@ bool EdgeFlipper::flip_best(Value value_of) {
 bool EdgeFlipper::relieve(std::uint32_t v) {
     const auto stretch_left = [this](const Quad& quad) {
         const Excess after = quad.excess_after(limits_.bounds);
-        const bool admitted = after.none() || after.worst <= quad.excess_before(limits_.bounds).worst;
+        const Excess before = quad.excess_before(limits_.bounds);
+        const bool admitted = after.none() || (after.worst <= before.worst && (after.kinds | before.kinds) == before.kinds);
         return admitted ? quad.least_stretch() : 0.0;
     };
     bool flipped = false;

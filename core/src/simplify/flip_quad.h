@@ -58,7 +58,10 @@ struct FlipQuad {
     }
 
 private:
-    [[nodiscard]] static Excess sum(double one, double other) { return {std::max(one, other), one + other}; }
+    [[nodiscard]] static Excess sum(Excess one, const Excess& other) {
+        one.add(other);
+        return one;
+    }
 };
 
 }  // namespace vsplit

@@ -3,7 +3,6 @@
 namespace vsplit {
 namespace {
 
-constexpr int kRounds = 8;
 constexpr std::uint32_t kLookEvery = 1024;  // faces, between two looks for a cancel
 
 }  // namespace
@@ -12,7 +11,7 @@ bool Mender::is_broken(std::uint32_t face) const {
     if (mesh_.removed(3 * face)) return false;
     if (!limits_.bounds.shaped()) return state_.faces[face].stretch < limits_.bounds.min_stretch;
     const auto at = [&](HalfEdge h) { return mesh_.position(mesh_.origin(h)); };
-    return limits_.bounds.excess({at(3 * face), at(3 * face + 1), at(3 * face + 2)}) > 0;
+    return limits_.bounds.excess({at(3 * face), at(3 * face + 1), at(3 * face + 2)}).sum > 0;
 }
 
 bool Mender::relieve_vertices() {
@@ -39,10 +38,10 @@ bool Mender::mend_faces(bool may_move, const ExecutionContext& context) {
     return changed;
 }
 
-void Mender::mend(bool may_move, const ExecutionContext& context) {
-    for (int round = 0; round < kRounds && !context.cancelled(); ++round) {
+void Mender::mend(int rounds, bool may_move, const ExecutionContext& context) {
+    for (int round = 0; round < rounds && !context.cancelled(); ++round) {
         bool changed = relieve_vertices();
-        changed |= mend_faces(may_move, context);
+        if (may_move || limits_.bounds.shaped()) changed |= mend_faces(may_move, context);
         if (!changed) return;
     }
 }

@@ -14,8 +14,10 @@ public:
            const PolishLimits& limits)
         : mesh_(mesh), state_(state), flipper_(flipper), mover_(mover), limits_(limits) {}
 
-    /// Rounds until nothing more helps, `may_move` vertices too. Stops early when cancelled. O(faces) where little is broken.
-    void mend(bool may_move, const ExecutionContext& context);
+    /// At most so many rounds, until nothing more helps. Unless it `may_move` vertices it leaves faces alone that break the bound
+    /// on stretch where that is the only one: the strict mode mends those by collapses. Stops early when cancelled. O(faces)
+    /// where little is broken.
+    void mend(int rounds, bool may_move, const ExecutionContext& context);
 
 private:
     [[nodiscard]] bool relieve_vertices();

@@ -22,7 +22,7 @@ public:
     void polish(int relaxations, int lifts, const ExecutionContext& context);
 
     /// Mends what breaks a bound; see Mender.
-    void mend(bool may_move, const ExecutionContext& context) { mender_.mend(may_move, context); }
+    void mend(int rounds, bool may_move, const ExecutionContext& context) { mender_.mend(rounds, may_move, context); }
 
     /// Flips after a collapse to v; see EdgeFlipper.
     [[nodiscard]] const std::vector<std::uint32_t>& flip_around(std::uint32_t v) {

@@ -28,6 +28,8 @@ constexpr int kDenseRelaxations = 3;
 constexpr int kCheckpointRelaxations = 2;
 constexpr int kFinalRelaxations = 10;
 constexpr int kFinalLifts = 4;
+constexpr int kCheckpointMends = 1;  // of bounds that are broken; moves cost as many lifts
+constexpr int kFinalMends = 8;
 
 /// A collapse that the guard refused so often is not tried again before the next checkpoint: trying is dear.
 constexpr std::uint8_t kMostRefusals = 3;
@@ -93,14 +95,14 @@ private:
 
     /// The strict mode: flips only, only before the first collapse, and only where a bound is broken that collapses hardly mend.
     [[nodiscard]] Status mend_and_collapse() {
-        if (bounds_need_mending()) polisher_.mend(false, context_);
+        if (bounds_need_mending()) polisher_.mend(kFinalMends, false, context_);
         return collapse_in_phases(input_.faces_min);
     }
 
     /// Vertices of too many edges are seldom mended later: faces around them have no room.
     void polish(int relaxations, int lifts, bool asked) {
         polisher_.polish(relaxations, lifts, context_);
-        if (asked || bounds_need_mending()) polisher_.mend(true, context_);
+        if (asked || bounds_need_mending()) polisher_.mend(asked ? kFinalMends : kCheckpointMends, true, context_);
     }
 
     [[nodiscard]] std::unique_ptr<DeviationGuard> make_guard() const {
