@@ -124,7 +124,7 @@ TEST(ArgumentsTest, ReadsFeatureDetectionAndSizes) {
     EXPECT_EQ(sizing.min_size, 0.1);
     EXPECT_EQ(a.size_field, "sizes.txt");
     EXPECT_FALSE(arguments({"control", "a.stl", "--feature-detection", "dihedral"}).control.sizing);
-    EXPECT_EQ(arguments({"control", "a.stl", "--min-size", "2"}).control.sizing->gradation, kDefaultGradation);
+    EXPECT_EQ(arguments({"control", "a.stl", "--chord-error", "2"}).control.sizing->gradation, kDefaultGradation);
 }
 
 TEST(ArgumentsTest, RefusesShapesThatAreNone) {
