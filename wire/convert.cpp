@@ -250,6 +250,10 @@ v1::ControlOptions to_proto(const ControlOptions& options) {
     if (options.min_stretch) proto.set_min_stretch(*options.min_stretch);
     if (options.max_size) proto.set_max_size(*options.max_size);
     if (options.max_valence) proto.set_max_valence(*options.max_valence);
+    if (options.min_angle) proto.set_min_angle(*options.min_angle);
+    if (options.max_angle) proto.set_max_angle(*options.max_angle);
+    if (options.max_aspect_ratio) proto.set_max_aspect_ratio(*options.max_aspect_ratio);
+    if (options.min_size) proto.set_min_size(*options.min_size);
     set_common(options, proto);
     return proto;
 }
@@ -267,6 +271,10 @@ Expected<ControlOptions> from_proto(const v1::ControlOptions& options) {
     if (options.has_min_stretch()) result.min_stretch = options.min_stretch();
     if (options.has_max_size()) result.max_size = options.max_size();
     if (options.has_max_valence()) result.max_valence = options.max_valence();
+    if (options.has_min_angle()) result.min_angle = options.min_angle();
+    if (options.has_max_angle()) result.max_angle = options.max_angle();
+    if (options.has_max_aspect_ratio()) result.max_aspect_ratio = options.max_aspect_ratio();
+    if (options.has_min_size()) result.min_size = options.min_size();
     if (Status common = get_common(options, result); !common) return common.error();
     return result;
 }

@@ -6,7 +6,9 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <string_view>
+#include <type_traits>
 
 #include "cli/app.h"
 #include "cli/message.h"
@@ -36,6 +38,10 @@ CLI::Validator accepts(const char* accepted) {
 
 CLI::Validator whole_number() { return accepts<std::uint32_t>("a whole number from 0 to 4294967295"); }
 CLI::Validator real_number() { return accepts<double>("a number, e.g. 0.25 or 1e-3"); }
+
+CLI::Option* add_real(CLI::App& verb, const std::string& name, std::optional<double>& value, const std::string& about) {
+    return verb.add_option(name, value, about)->check(real_number());
+}
 
 /// An option whose values have names.
 template <class Value>
@@ -157,8 +163,10 @@ void add_sizing(CLI::App& verb, Arguments& a, Options& o) {
              [&o](double value) { sizing_in(o.sizing).chord_error = value; });
     add_size(verb, "--gradation", "Most that the size grows by per unit of length; more than 0, at most 1. Default 0.3",
              [&o](double value) { sizing_in(o.sizing).gradation = value; });
-    add_size(verb, "--min-size", "No size is less than this, whatever asks for it; length > 0. Default: no bound",
-             [&o](double value) { sizing_in(o.sizing).min_size = value; });
+    if constexpr (std::is_same_v<Options, ImproveOptions>) {  // control has it as a bound of its own
+        add_size(verb, "--min-size", "No size is less than this, whatever asks for it; length > 0. Default: no bound",
+                 [&o](double value) { sizing_in(o.sizing).min_size = value; });
+    }
     verb.add_option("--size-field", a.size_field,
                     "Text file of sizes, a number a line, one for each vertex of IN in order, 0 for no bound")
         ->type_name("FILE")
@@ -275,9 +283,21 @@ void add_control(CLI::App& app, Arguments& a) {
     verb.add_option("--max-valence", a.control.max_valence, "Most edges at a vertex (tau_VL); >= 6. Default: no bound")
         ->check(whole_number())
         ->type_name("V");
-    add_method(verb, a, a.control, "as many as IN has");
+    add_real(verb, "--min-angle", a.control.min_angle, "Least angle of a face; degrees, > 0, < 60. Default: no bound")
+        ->type_name("A");
+    add_real(verb, "--max-angle", a.control.max_angle, "Largest angle of a face; degrees, > 60, < 180. Default: no bound")
+        ->type_name("A");
+    add_real(verb, "--max-aspect-ratio", a.control.max_aspect_ratio,
+             "Longest edge of a face over its shortest; >= 1. Default: no bound")
+        ->type_name("R");
+    add_real(verb, "--min-size", a.control.min_size,
+             "Least length of a face's longest edge, and of what --size-sphere and the like ask for; > 0. Default: no bound")
+        ->type_name("S");
+    add_method(verb, a, a.control, "as many as IN has, or near that where the bounds hold");
     verb.footer(
-        "Exit status 2 says that a bound could not be met; stderr says which, how often and why.\n"
+        "Where a bound is broken at the faces asked for, and all hold within 10 % of them, that resolution is taken.\n"
+        "Exit status 2 says that a bound could not be met; stderr says which, how often, where and why; --json lists up to\n"
+        "10,000 faces (vertices for --max-valence).\n"
         "Example:\n  vsplit control improved.vsplit --min-stretch 0.2 --max-valence 10 --max-size 12 -o controlled.stl");
 }
 
@@ -342,6 +362,9 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv) {
         return refuse(app, e);
     }
     arguments.verb = verbs().at(app.get_subcommands().front()->get_name());
+    ControlOptions& control = arguments.control;
+    if (control.min_size && (control.sizing || !arguments.size_field.empty()))
+        sizing_in(control.sizing).min_size = control.min_size;
     return arguments;
 }
 

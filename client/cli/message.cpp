@@ -1,5 +1,6 @@
 #include "cli/message.h"
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 
@@ -22,6 +23,10 @@ std::string option_of(const std::string& field) {
                                                                       {"min_stretch", "--min-stretch"},
                                                                       {"max_size", "--max-size"},
                                                                       {"max_valence", "--max-valence"},
+                                                                      {"min_angle", "--min-angle"},
+                                                                      {"max_angle", "--max-angle"},
+                                                                      {"max_aspect_ratio", "--max-aspect-ratio"},
+                                                                      {"min_size", "--min-size"},
                                                                       {"feature_detection", "--feature-detection"},
                                                                       {"freeze_boundary", "--freeze-boundary"},
                                                                       {"sizing.spheres", "--size-sphere"},
@@ -45,6 +50,17 @@ std::string option_of(const std::string& field) {
     return found == options.end() ? std::string() : std::string(found->second);
 }
 
+/// The first few of what breaks a bound.
+std::string named(const v1::Violation& violation) {
+    constexpr int kNamed = 5;
+    if (violation.elements_size() == 0) return {};
+    std::string text;
+    for (int i = 0; i < std::min(kNamed, violation.elements_size()); ++i) {
+        text += (i == 0 ? " (" : ", ") + std::to_string(violation.elements(i));
+    }
+    return text + (violation.count() > kNamed ? ", ...)" : ")");
+}
+
 }  // namespace
 
 std::string error_message(const Error& error) {
@@ -65,7 +81,7 @@ std::string violation_messages(const v1::Representation& made) {
     std::string text;
     for (const v1::Violation& violation : made.violations()) {
         text += "vsplit: bound not met: " + violation.bound() + " " + figure(violation.limit()) + ": " + broken_by(violation) +
-                ", worst " + figure(violation.worst()) + "; " + violation.reason() + "\n";
+                named(violation) + ", worst " + figure(violation.worst()) + "; " + violation.reason() + "\n";
     }
     return text;
 }
@@ -73,7 +89,9 @@ std::string violation_messages(const v1::Representation& made) {
 std::string nearest_note(std::uint32_t asked, const v1::Representation& made) {
     const std::uint32_t faces = made.faces();
     if (asked == faces || asked == std::uint64_t{faces} + 1) return {};
-    return "vsplit: note: " + grouped(asked) + " faces asked for, " + grouped(faces) + " is the nearest resolution (there are " +
+    const bool inside = made.faces_min() <= asked && asked <= made.faces_max();
+    const std::string which = inside ? " is the nearest resolution found that keeps the bounds" : " is the nearest resolution";
+    return "vsplit: note: " + grouped(asked) + " faces asked for, " + grouped(faces) + which + " (there are " +
            grouped(made.faces_min()) + " to " + grouped(made.faces_max()) + ")\n";
 }
 

@@ -116,6 +116,10 @@ std::string option_lines(const v1::Representation& r) {
     text += line("least stretch", figure(o.min_stretch()));
     if (o.has_max_size()) text += line("size bound", figure(o.max_size()));
     if (o.has_max_valence()) text += line("valence bound", std::to_string(o.max_valence()));
+    if (o.has_min_angle()) text += line("least angle", figure(o.min_angle()) + " degrees");
+    if (o.has_max_angle()) text += line("largest angle", figure(o.max_angle()) + " degrees");
+    if (o.has_max_aspect_ratio()) text += line("aspect bound", figure(o.max_aspect_ratio()));
+    if (o.has_min_size()) text += line("least size", figure(o.min_size()));
     return text + common_options(o);
 }
 

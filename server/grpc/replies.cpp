@@ -15,6 +15,14 @@ void set_time(std::chrono::system_clock::time_point time, google::protobuf::Time
     proto.set_nanos(static_cast<std::int32_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(since - seconds).count()));
 }
 
+/// Lists of sessions must stay small.
+void shorten_violations(v1::Representation& proto) {
+    constexpr int kExamples = 16;
+    for (v1::Violation& violation : *proto.mutable_violations()) {
+        if (violation.elements_size() > kExamples) violation.mutable_elements()->Truncate(kExamples);
+    }
+}
+
 }  // namespace
 
 v1::Session to_proto(const service::SessionSnapshot& session) {
@@ -23,7 +31,11 @@ v1::Session to_proto(const service::SessionSnapshot& session) {
     set_time(session.create_time, *proto.mutable_create_time());
     set_time(session.expire_time, *proto.mutable_expire_time());
     if (session.source) *proto.mutable_source() = wire::to_proto(session.source->report);
-    for (const auto& representation : session.representations) *proto.add_representations() = to_proto(*representation);
+    for (const auto& representation : session.representations) {
+        v1::Representation& entry = *proto.add_representations();
+        entry = to_proto(*representation);
+        shorten_violations(entry);
+    }
     return proto;
 }
 

@@ -89,6 +89,20 @@ TEST(ArgumentsTest, ReadsControlWhole) {
     EXPECT_FALSE(a.control.faces);
 }
 
+TEST(ArgumentsTest, ReadsTheBoundsOfControl) {
+    const Arguments a = arguments(
+        {"control", "a.stl", "--min-angle", "20", "--max-angle", "130.5", "--max-aspect-ratio", "3", "--min-size", "0.25"});
+    EXPECT_EQ(a.control.min_angle, 20.0);
+    EXPECT_EQ(a.control.max_angle, 130.5);
+    EXPECT_EQ(a.control.max_aspect_ratio, 3.0);
+    EXPECT_EQ(a.control.min_size, 0.25);
+    EXPECT_FALSE(a.control.sizing);
+    const Arguments sized = arguments({"control", "a.stl", "--min-size", "0.25", "--chord-error", "0.01"});
+    EXPECT_EQ(sized.control.min_size, 0.25);
+    ASSERT_TRUE(sized.control.sizing);
+    EXPECT_EQ(sized.control.sizing->min_size, 0.25) << "nothing asks for less than may be";
+}
+
 TEST(ArgumentsTest, ReadsFeatureDetectionAndSizes) {
     const Arguments a = arguments(
         {"improve",     "a.stl",         "--feature-detection", "normal-voting", "--size-sphere",    "1,2,3,4,0.5",   "-o",
@@ -110,7 +124,7 @@ TEST(ArgumentsTest, ReadsFeatureDetectionAndSizes) {
     EXPECT_EQ(sizing.min_size, 0.1);
     EXPECT_EQ(a.size_field, "sizes.txt");
     EXPECT_FALSE(arguments({"control", "a.stl", "--feature-detection", "dihedral"}).control.sizing);
-    EXPECT_EQ(arguments({"control", "a.stl", "--min-size", "2"}).control.sizing->gradation, kDefaultGradation);
+    EXPECT_EQ(arguments({"control", "a.stl", "--chord-error", "2"}).control.sizing->gradation, kDefaultGradation);
 }
 
 TEST(ArgumentsTest, ReadsFreezeBoundary) {

@@ -242,6 +242,7 @@ TEST_F(CommandLineTest, ABoundThatCannotBeMetIsStatusTwo) {
     EXPECT_FALSE(made.bounds_satisfied());
     ASSERT_EQ(made.violations_size(), 1);
     EXPECT_NE(result.err.find("bound not met: min_stretch 0.99: "), std::string::npos) << result.err;
+    EXPECT_EQ(static_cast<std::uint32_t>(made.violations(0).elements_size()), made.violations(0).count());
     EXPECT_NE(result.err.find(made.violations(0).reason()), std::string::npos) << result.err;
     EXPECT_TRUE(fs::exists(file("c.obj")));  // done all the same
 }
@@ -289,6 +290,10 @@ TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
         {{"info", cube, "--repair", "full"}, "UNSUPPORTED"},
         {{"control", cube, "--min-stretch", "1.5"}, "(--min-stretch)"},
         {{"control", cube, "--max-valence", "5"}, "(--max-valence)"},
+        {{"control", cube, "--min-angle", "60"}, "(--min-angle)"},
+        {{"control", cube, "--max-angle", "60"}, "(--max-angle)"},
+        {{"control", cube, "--max-aspect-ratio", "0.5"}, "(--max-aspect-ratio)"},
+        {{"control", cube, "--min-size", "3", "--max-size", "2"}, "at most max_size, which is 2 (--min-size)"},
         {{"control", cube, "--subdivisions", "13"}, "(--subdivisions)"},
         {{"info", cube, "--weld", "-1"}, "(--weld)"},
         {{"improve", touching}, "NON_MANIFOLD: the boundary touches itself at vertex 3"},  // unused ones are dropped

@@ -126,6 +126,10 @@ TEST(ConvertTest, ControlOptionsSurviveTheWay) {
     options.min_stretch = 0.3;
     options.max_size = 4;
     options.max_valence = 9;
+    options.min_angle = 20;
+    options.max_angle = 130;
+    options.max_aspect_ratio = 3;
+    options.min_size = 0.25;
     options.tolerance = 0.5;
     options.mode = Mode::kStrict;
     options.feature_detection = FeatureDetection::kDihedral;
@@ -138,6 +142,10 @@ TEST(ConvertTest, ControlOptionsSurviveTheWay) {
     EXPECT_EQ(back->min_stretch, options.min_stretch);
     EXPECT_EQ(back->max_size, options.max_size);
     EXPECT_EQ(back->max_valence, options.max_valence);
+    EXPECT_EQ(back->min_angle, options.min_angle);
+    EXPECT_EQ(back->max_angle, options.max_angle);
+    EXPECT_EQ(back->max_aspect_ratio, options.max_aspect_ratio);
+    EXPECT_EQ(back->min_size, options.min_size);
     EXPECT_EQ(back->tolerance, options.tolerance);
     EXPECT_EQ(back->mode, options.mode);
     EXPECT_EQ(back->feature_detection, options.feature_detection);

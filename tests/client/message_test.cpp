@@ -31,9 +31,11 @@ TEST(MessageTest, ABrokenBoundIsToldWithCountWorstAndReason) {
     valence.set_worst(11);
     valence.set_count(1200);
     valence.set_reason("flips are not offered");
+    for (const std::uint32_t v : {3, 5, 8, 13, 21, 34}) valence.add_elements(v);
+    stretch.add_elements(7);
     EXPECT_EQ(violation_messages(made),
-              "vsplit: bound not met: min_stretch 0.2: 1 face, worst 0.125; no collapse helps\n"
-              "vsplit: bound not met: max_valence 8: 1,200 vertices, worst 11; flips are not offered\n");
+              "vsplit: bound not met: min_stretch 0.2: 1 face (7), worst 0.125; no collapse helps\n"
+              "vsplit: bound not met: max_valence 8: 1,200 vertices (3, 5, 8, 13, 21, ...), worst 11; flips are not offered\n");
 }
 
 TEST(MessageTest, TheNearestResolutionIsToldOnlyWhereItIsAnother) {
@@ -44,6 +46,7 @@ TEST(MessageTest, TheNearestResolutionIsToldOnlyWhereItIsAnother) {
     EXPECT_EQ(nearest_note(100, made), "");
     EXPECT_EQ(nearest_note(101, made), "");  // counts go in steps of two
     EXPECT_NE(nearest_note(50, made).find("100 is the nearest"), std::string::npos);
+    EXPECT_NE(nearest_note(110, made).find("that keeps the bounds"), std::string::npos);
     made.set_faces(5000);
     EXPECT_NE(nearest_note(9000, made).find("there are 100 to 5,000"), std::string::npos);
 }

@@ -11,6 +11,7 @@
 #include "simplify/collapse_log.h"
 #include "simplify/edge_evaluator.h"
 #include "simplify/edge_queue.h"
+#include "simplify/polish.h"
 #include "simplify/simplify.h"
 #include "tests/core/meshes.h"
 #include "tests/core/polishing.h"
@@ -47,6 +48,7 @@ public:
         : input_(input), policy_(policy), mesh_(input.mesh, input.ghosts), state_(initial_state(input_)) {}
 
     MultiresMesh run() {
+        if constexpr (requires { policy_.max_valence; }) mend_first();
         for (int phase = policy_.two_phases() ? 1 : 2; phase <= 2; ++phase) {
             policy_.enter_phase(phase);
             while (mesh_.live_faces() >= input_.faces_min + 2 && collapse_best()) {
@@ -56,6 +58,19 @@ public:
     }
 
 private:
+    /// As the strict mode does where vertices have too many edges; tested on its own.
+    void mend_first() {
+        PolishLimits limits{.centre = input_.centre, .tolerance = input_.tolerance, .max_size = policy_.max_size};
+        limits.max_valence = policy_.max_valence;
+        limits.bounds = policy_;
+        for (const SharpEdge& crease : input_.creases) {
+            mesh_.for_each_outgoing(crease.a, [&](HalfEdge h) {
+                if (mesh_.target(h) == crease.b) mesh_.mark_crease(h);
+            });
+        }
+        Polisher(mesh_, state_, log_, nullptr, limits).mend(8, false, ExecutionContext());
+    }
+
     bool collapse_best() {
         EdgeEvaluator<Policy> evaluator(mesh_, state_, policy_, input_);
         std::optional<HalfEdge> best;

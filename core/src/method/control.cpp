@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "base/thread_limit.h"
-#include "mesh/half_edges.h"
+#include "method/control_bounds.h"
+#include "method/mend_hubs.h"
+#include "method/nearby_faces.h"
 #include "method/report_creases.h"
 #include "method/subdivision.h"
 #include "vsplit/mesh/inspect.h"
@@ -21,7 +23,7 @@ constexpr std::uint32_t kDefaultSubdivisions = 1;
 
 ControlPolicy policy_of(const ControlOptions& used, double diagonal) {
     ControlPolicy policy;
-    policy.min_stretch = *used.min_stretch;
+    static_cast<FaceBounds&>(policy) = face_bounds(used);
     if (used.max_size) policy.max_size = *used.max_size;
     if (used.max_valence) policy.max_valence = *used.max_valence;
     policy.size_unit = used.max_size.value_or(diagonal);
@@ -51,47 +53,6 @@ double usual_size(const TriangleMesh& mesh, const ControlOptions& used) {
     return std::sqrt(surface_area(mesh) / (kEquilateralArea * *used.faces));
 }
 
-/// Collects what breaks one bound.
-class ViolationCounter {
-public:
-    ViolationCounter(std::string bound, double limit) {
-        violation_.bound = std::move(bound);
-        violation_.limit = limit;
-        violation_.worst = limit;
-    }
-    void add(std::uint32_t element, double value, bool lower_bound) {
-        if (violation_.count++ < Violation::kExamples) violation_.elements.push_back(element);
-        violation_.worst = lower_bound ? std::min(violation_.worst, value) : std::max(violation_.worst, value);
-    }
-    void move_to(std::vector<Violation>& all) {
-        if (violation_.count > 0) all.push_back(std::move(violation_));
-    }
-
-private:
-    Violation violation_;
-};
-
-std::vector<std::uint32_t> valences(const TriangleMesh& mesh) {
-    std::vector<std::uint32_t> valence(mesh.positions.size(), 0);
-    const std::vector<HalfEdge> twins = half_edge_twins(mesh);
-    for (HalfEdge h = 0; h < twins.size(); ++h) {
-        ++valence[origin(mesh, h)];
-        if (twins[h] == kNone) ++valence[origin(mesh, next(h))];  // which no half-edge of it leaves
-    }
-    return valence;
-}
-
-/// Why a bound could not be met: everything was collapsed that may be, or the resolution asked for comes before the mending.
-std::string reason_for(const Violation& violation, bool coarsest) {
-    const std::string what = violation.bound == "max_valence" ? "vertices" : "faces";
-    if (coarsest) {
-        return "no valid collapse mends these " + what +
-               " within the tolerance and the other bounds; a larger tolerance or looser bounds may, and so may improving first";
-    }
-    return "these " + what +
-           " are left at the faces asked for; fewer faces, a larger tolerance or improving the mesh first may mend them";
-}
-
 }  // namespace
 
 ControlOptions default_options(const TriangleMesh& mesh, const ControlOptions& options) {
@@ -109,37 +70,6 @@ ControlOptions default_options(const TriangleMesh& mesh, const ControlOptions& o
     return used;
 }
 
-std::vector<Violation> find_violations(const TriangleMesh& mesh, const ControlOptions& options) {
-    std::vector<Violation> all;
-    if (options.min_stretch) {
-        ViolationCounter counter("min_stretch", *options.min_stretch);
-        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-            const Triangle& t = mesh.faces[f];
-            const double s = stretch(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-            if (s < *options.min_stretch) counter.add(f, s, true);
-        }
-        counter.move_to(all);
-    }
-    if (options.max_size) {
-        ViolationCounter counter("max_size", *options.max_size);
-        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-            const Triangle& t = mesh.faces[f];
-            const double size = face_size(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-            if (size > *options.max_size) counter.add(f, size, false);
-        }
-        counter.move_to(all);
-    }
-    if (options.max_valence) {
-        ViolationCounter counter("max_valence", *options.max_valence);
-        const std::vector<std::uint32_t> valence = valences(mesh);
-        for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-            if (valence[v] > *options.max_valence) counter.add(v, valence[v], false);
-        }
-        counter.move_to(all);
-    }
-    return all;
-}
-
 namespace {
 
 Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptions& options, const MethodLimits& limits,
@@ -152,27 +82,30 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
     const ControlOptions used = default_options(mesh, options);
 
+    // What mends hubs knows no boundaries, and a size field belongs to the source's own faces.
+    const std::shared_ptr<const CreasedMesh> mended = report.closed && !used.sizing ? mend_hubs(mesh, used, context) : nullptr;
+    const TriangleMesh& coarse = mended ? mended->mesh : mesh;
     const Expected<std::optional<SizePlan>> sizes = plan_sizes(mesh, used.sizing, feature_options(used), usual_size(mesh, used));
     if (!sizes) return sizes.error();
     const bool frozen = *used.freeze_boundary && !report.closed;
-    Expected<SubdividedMesh> subdivided = subdivide(mesh, *sizes, used, frozen, limits.max_faces, context);
+    Expected<SubdividedMesh> subdivided = subdivide(coarse, *sizes, used, frozen, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
     const bool extended = used.mode == Mode::kExtended;
     const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces, frozen, report.closed,
-                         *sizes ? &**sizes : nullptr},
+                         *sizes ? &**sizes : nullptr, mended},
                         extended,
                         used.max_deviation.value_or(0),
                         options.max_deviation};
-    const auto faces_of = [&](const MultiresMesh&) { return *used.faces; };
+    const auto faces_of = [&](const MultiresMesh& mrr) { return faces_that_keep_bounds(mrr, used, options.faces.has_value()); };
     Expected<MethodResult> tried =
         run_policy(mesh, std::move(*subdivided), run, policy_of(used, bounding_box(mesh).diagonal()), faces_of, context);
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
     if (Status told = report_creases(result, mesh, run, context); !told) return told.error();
     result.options = used;
-    result.violations = find_violations(mesh_at(result.mrr, result.mrr.level_for(result.faces)), used);
-    for (Violation& violation : result.violations)
-        violation.reason = reason_for(violation, result.faces == result.mrr.faces_min());
+    const TriangleMesh shown = mesh_at(result.mrr, result.mrr.level_for(result.faces));
+    result.violations = find_violations(shown, used);
+    explain(result, shown, used);
     if (*sizes) report_sizes(result, mesh, **sizes);
     report_deviation(result, options.max_deviation);
     result.elapsed = std::chrono::steady_clock::now() - start;

@@ -19,18 +19,24 @@ struct Range {
     double high = 0;
     bool low_included = true;
     const char* words = "";
+    bool high_included = true;
 };
 
 constexpr Range kPositive{0, 1e300, false, "a positive finite length"};
 constexpr Range kAngle{0, 180, true, "0 to 180 degrees"};
 constexpr Range kWeight{0, 1e6, true, "0 to 1e6"};
 constexpr Range kStretch{0, 1, true, "0 to 1"};
+constexpr Range kLeastAngle{0, 60, false, "more than 0 and less than 60 degrees, since the angles of a face sum to 180", false};
+constexpr Range kLargestAngle{60, 180, false, "more than 60 and less than 180 degrees, since the angles of a face sum to 180",
+                              false};
+constexpr Range kAspect{1, 1e300, true, "1 or more, and finite: the longest edge over the shortest"};
 constexpr std::uint32_t kMaxSubdivisions = 12;
 constexpr std::uint32_t kLeastValenceBound = 6;
 
 Status check_range(const std::optional<double>& value, const Range& range, const char* field) {
     if (!value) return Done{};
-    const bool inside = (range.low_included ? *value >= range.low : *value > range.low) && *value <= range.high;
+    const bool inside = (range.low_included ? *value >= range.low : *value > range.low) &&
+                        (range.high_included ? *value <= range.high : *value < range.high);
     return inside ? Status(Done{}) : invalid(field, number_text(*value), range.words);  // NaN is never inside
 }
 
@@ -60,6 +66,39 @@ Status check_common(const Options& options, const std::optional<double>& max_siz
     if (Status s = check_range(options.feature_angle, kAngle, "feature_angle"); !s) return s;
     if (Status s = check_range(options.feature_weight, kWeight, "feature_weight"); !s) return s;
     return check_faces(options.faces, options.faces_min);
+}
+
+Status check_at_most(double min_size, double limit, const std::string& whose) {
+    if (min_size <= limit) return Done{};
+    return invalid("min_size", number_text(min_size), "at most " + whose + ", which is " + number_text(limit));
+}
+
+/// Sizes that are asked for at a place, no less than sizing.min_size, leave room for faces of min_size. `sizing` was checked.
+Status check_min_size_under(double min_size, const SizingOptions& sizing) {
+    const double floor = sizing.min_size.value_or(0);
+    const auto name = [](const char* field, std::size_t index) { return field + ('[' + std::to_string(index) + ']'); };
+    for (std::size_t i = 0; i < sizing.spheres.size(); ++i) {
+        const double size = std::max(floor, sizing.spheres[i].size);
+        if (Status s = check_at_most(min_size, size, "the size of " + name("sizing.spheres", i)); !s) return s;
+    }
+    for (std::size_t i = 0; i < sizing.boxes.size(); ++i) {
+        const double size = std::max(floor, sizing.boxes[i].size);
+        if (Status s = check_at_most(min_size, size, "the size of " + name("sizing.boxes", i)); !s) return s;
+    }
+    for (std::size_t i = 0; i < sizing.field.size(); ++i) {
+        if (sizing.field[i] == 0) continue;
+        if (Status s = check_at_most(min_size, std::max(floor, sizing.field[i]), name("sizing.field", i)); !s) return s;
+    }
+    return sizing.max_size ? check_at_most(min_size, *sizing.max_size, "sizing.max_size") : Status(Done{});
+}
+
+/// Bounds on the angles, sides and size of a face.
+Status check_face_bounds(const ControlOptions& options) {
+    if (Status s = check_range(options.min_angle, kLeastAngle, "min_angle"); !s) return s;
+    if (Status s = check_range(options.max_angle, kLargestAngle, "max_angle"); !s) return s;
+    if (Status s = check_range(options.max_aspect_ratio, kAspect, "max_aspect_ratio"); !s) return s;
+    if (Status s = check_range(options.min_size, kPositive, "min_size"); !s || !options.min_size) return s;
+    return options.max_size ? check_at_most(*options.min_size, *options.max_size, "max_size") : Status(Done{});
 }
 
 /// Distances are differences of coordinates, which have so many digits.
@@ -102,6 +141,10 @@ Status check_options(const ControlOptions& options) {
     if (options.max_valence && *options.max_valence < kLeastValenceBound) {
         return invalid("max_valence", std::to_string(*options.max_valence),
                        "at least 6 (the mean valence of a closed mesh is about 6)");
+    }
+    if (Status s = check_face_bounds(options); !s) return s;
+    if (options.min_size && options.sizing && check_sizing(*options.sizing, options.max_size)) {
+        if (Status s = check_min_size_under(*options.min_size, *options.sizing); !s) return s;
     }
     return check_common(options, options.max_size);
 }

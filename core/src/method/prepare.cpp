@@ -85,11 +85,13 @@ constexpr double kCornerReach = 4;
 SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options) {
     const BoundingBox box = bounding_box(source);
     order_spatially(subdivided);
-    const FaceNormals source_normals = face_normals(source);
+    const TriangleMesh& coarse = options.mended ? options.mended->mesh : source;
+    const FaceNormals source_normals = face_normals(coarse);
     FaceNormals normals = inherit(source_normals, subdivided.parent);
     SimplifyInput input;
     input.centre = (box.min + box.max) / 2;
-    input.creases = creases_on(subdivided, source, find_creases(source, source_normals, options.features));
+    input.creases = creases_on(subdivided, coarse,
+                               options.mended ? options.mended->creases : find_creases(source, source_normals, options.features));
     if (!options.closed) {
         input.creases = with_heavy_boundary(std::move(input.creases), subdivided.mesh);
         input.boundary_corners = boundary_corners(subdivided.mesh, {options.features.angle, kCornerReach * options.tolerance});

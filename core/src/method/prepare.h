@@ -10,6 +10,12 @@
 
 namespace vsplit {
 
+/// A mesh and its creases.
+struct CreasedMesh {
+    TriangleMesh mesh;
+    std::vector<SharpEdge> creases;
+};
+
 /// What both methods hand to the simplifier, defaults filled in.
 struct PrepareOptions {
     FeatureOptions features;
@@ -17,8 +23,9 @@ struct PrepareOptions {
     std::uint32_t faces_min = 0;
     std::uint32_t faces = 0;
     bool freeze_boundary = false;
-    bool closed = false;              ///< the source is known to have no boundary, so none is looked for
-    const SizePlan* sizes = nullptr;  ///< null: the same size everywhere
+    bool closed = false;                          ///< the source is known to have no boundary, so none is looked for
+    const SizePlan* sizes = nullptr;              ///< null: the same size everywhere
+    std::shared_ptr<const CreasedMesh> mended{};  ///< what was subdivided in place of the source; null: the source itself
 };
 
 /// Normals, creases and quadrics of a subdivided mesh, whose boundaries are then closed by ghosts. Normals are those of the

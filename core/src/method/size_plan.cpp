@@ -80,7 +80,7 @@ std::optional<Violation> find_oversized(const TriangleMesh& result, const Triang
         }
         if (!(ratio > 1)) continue;
         violation.worst = std::max(violation.worst, ratio);
-        if (violation.count++ < Violation::kExamples) violation.elements.push_back(f);
+        if (violation.count++ < Violation::kMostElements) violation.elements.push_back(f);
     }
     if (violation.count == 0) return std::nullopt;
     violation.reason = "vertices have moved since these sizes were looked up; a smaller size or more faces meet it";

@@ -110,6 +110,7 @@ private:
         const Fan::Shape shape = fan_.shape_at(position);
         if (shape.folds || !policy_.admits(before_, shape)) return false;
         if (state_.sizes.binding() && !sizes_admit(position)) return false;
+        if (policy_.shaped() && !policy_.admits_excess(before_, fan_.excess(policy_, position))) return false;
         valid_ = {Evaluation::Verdict::kValid, evenness_ * policy_.factor(before_) * shape_quality(shape, fan_.size()), position};
         return true;
     }
@@ -137,6 +138,7 @@ private:
         // Each half begins with a vertex across the edge, which both ends share; the others must differ.
         if (share_vertex(1, at_i, at_i + 1, all)) return false;
         ghost_ == kNone ? fan_.close(all) : open_fan(h, all);
+        if (policy_.shaped()) before_.excess = excess_before(h);
         return true;
     }
 
@@ -150,6 +152,20 @@ private:
             before_.vanishing += 1;
         }
         for (std::size_t t = 0; t < fan_.size(); ++t) count(state_.faces[fan_.face(t)], before_);
+    }
+
+    /// Of the faces in the fan and of those that vanish, as they are.
+    [[nodiscard]] Excess excess_before(HalfEdge h) const {
+        Excess all;
+        const auto add = [&](std::uint32_t face) {
+            const auto at = [&](HalfEdge corner) { return mesh_.position(mesh_.origin(corner)); };
+            all.add(policy_.excess({at(3 * face), at(3 * face + 1), at(3 * face + 2)}));
+        };
+        for (std::size_t t = 0; t < fan_.size(); ++t) add(fan_.face(t));
+        for (const HalfEdge side : {h, mesh_.twin(h)}) {
+            if (mesh_.origin(prev(side)) != ghost_) add(face_of(side));
+        }
+        return all;
     }
 
     /// Puts the faces counter-clockwise from that of `first` to the one before the face of `edge` into the fan, from place t on.

@@ -3,75 +3,45 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
-#include "quality/face_shape.h"
+#include "simplify/flip_quad.h"
 
 namespace vsplit {
 namespace {
 
 /// Faces of a better shape are left alone.
 constexpr double kGoodEnough = 0.95;
-/// Of the angle between a face before the flip and one after it: 26 degrees.
-constexpr double kLeastNormalCosine = 0.9;
-
-/// A face that a flip would make.
-struct NewFace {
-    Vec3 normal = Vec3::Zero();  // not unit while degenerate
-    double stretch = 0;
-    double size = 0;
-
-    NewFace(const Vec3& a, const Vec3& b, const Vec3& c) {
-        const Vec3 cross = (b - a).cross(c - a);
-        const double twice_area = cross.norm();
-        const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();
-        stretch = stretch_of(ab, bc, ca, twice_area);
-        size = std::max({ab, bc, ca});
-        normal = twice_area > 0 ? Vec3(cross / twice_area) : cross;
-    }
-
-    [[nodiscard]] FaceState state(double relative_size) const { return {normal.cast<float>(), stretch, relative_size}; }
-};
 
 }  // namespace
 
 /// The faces (a, b, c) of h and (b, a, d) of its twin, which would become (d, c, a) and (c, d, b).
-struct EdgeFlipper::Quad {
+struct EdgeFlipper::Quad : FlipQuad {
     FaceState of_h, of_twin;
     std::uint32_t a, b, c, d;
-    Vec3 pa, pb, pc, pd;
-    NewFace left, right;
 
     Quad(const HalfEdgeMesh& mesh, const LocalState& state, HalfEdge h)
-        : of_h(state.faces[face_of(h)]),
+        : FlipQuad(mesh.position(mesh.origin(h)), mesh.position(mesh.target(h)), mesh.position(mesh.origin(prev(h))),
+                   mesh.position(mesh.origin(prev(mesh.twin(h)))), state.faces[face_of(h)].normal.cast<double>(),
+                   state.faces[face_of(mesh.twin(h))].normal.cast<double>()),
+          of_h(state.faces[face_of(h)]),
           of_twin(state.faces[face_of(mesh.twin(h))]),
           a(mesh.origin(h)),
           b(mesh.target(h)),
           c(mesh.origin(prev(h))),
-          d(mesh.origin(prev(mesh.twin(h)))),
-          pa(mesh.position(a)),
-          pb(mesh.position(b)),
-          pc(mesh.position(c)),
-          pd(mesh.position(d)),
-          left(pd, pc, pa),
-          right(pc, pd, pb) {}
+          d(mesh.origin(prev(mesh.twin(h)))) {}
 
-    [[nodiscard]] double gain() const { return std::min(left.stretch, right.stretch) - std::min(of_h.stretch, of_twin.stretch); }
+    [[nodiscard]] double gain() const { return least_stretch() - std::min(of_h.stretch, of_twin.stretch); }
 
-    /// Neither new face turns away from either old one.
-    [[nodiscard]] bool normals_stay() const {
-        const Vec3 n_h = of_h.normal.cast<double>();
-        const Vec3 n_twin = of_twin.normal.cast<double>();
-        return std::min({left.normal.dot(n_h), left.normal.dot(n_twin), right.normal.dot(n_h), right.normal.dot(n_twin)}) >=
-               kLeastNormalCosine;
-    }
-
-    /// Whether the two diagonals pass each other within `gap`: what the flip moves the surface by.
-    [[nodiscard]] bool moves_surface_within(double gap) const {
-        const Vec3 across = (pb - pa).cross(pd - pc);
-        return std::abs(across.dot(pc - pa)) <= gap * across.norm();
+    [[nodiscard]] static FaceState state(const Face& face, double relative_size) {
+        return {face.normal.cast<float>(), face.stretch, relative_size};
     }
 };
+
+/// Those that are seen: without one to a ghost.
+std::uint32_t EdgeFlipper::edges_at(std::uint32_t v) const {
+    return mesh_.valence(v) - (state_.border.ghost_beside(v) == kNone ? 0 : 1);
+}
 
 bool EdgeFlipper::has_edge(std::uint32_t from, std::uint32_t to) const {
     bool found = false;
@@ -79,12 +49,19 @@ bool EdgeFlipper::has_edge(std::uint32_t from, std::uint32_t to) const {
     return found;
 }
 
+/// All but what the flip is wanted for.
 bool EdgeFlipper::may_flip(const Quad& quad) const {
     if (mesh_.valence(quad.a) <= 3 || mesh_.valence(quad.b) <= 3) return false;
-    if (std::max(mesh_.valence(quad.c), mesh_.valence(quad.d)) >= limits_.max_valence) return false;
+    if (std::max(edges_at(quad.c), edges_at(quad.d)) >= limits_.max_valence) return false;
     const double length = (quad.pd - quad.pc).norm();
-    if (!(quad.gain() > kLeastGain) || length > limits_.max_size || !state_.sizes.admits(length, quad.c, quad.d)) return false;
+    if (length > limits_.max_size || !state_.sizes.admits(length, quad.c, quad.d)) return false;
     return quad.normals_stay() && quad.moves_surface_within(limits_.tolerance) && !has_edge(quad.c, quad.d);
+}
+
+/// A flip that gains stretch breaks no bound on that.
+bool EdgeFlipper::keeps_bounds(const Quad& quad) const {
+    if (!limits_.bounds.shaped()) return true;
+    return quad.excess_after(limits_.bounds).may_follow(quad.excess_before(limits_.bounds));
 }
 
 bool EdgeFlipper::guard_admits(const Quad& quad, HalfEdge h) {
@@ -103,18 +80,73 @@ bool EdgeFlipper::is_beside_ghost(HalfEdge h) const {
     return state_.border.is_ghost(least);
 }
 
-bool EdgeFlipper::flip_if_better(HalfEdge h) {
-    const HalfEdge g = mesh_.twin(h);
-    if (mesh_.is_crease(h) || is_beside_ghost(h)) return false;
-    if (std::min(state_.faces[face_of(h)].stretch, state_.faces[face_of(g)].stretch) > kGoodEnough) return false;
-    const Quad quad(mesh_, state_, h);
-    if (!may_flip(quad) || !creases_.try_flip(h, quad.left.normal, quad.right.normal) || !guard_admits(quad, h)) return false;
+bool EdgeFlipper::guards_admit(const Quad& quad, HalfEdge h) {
+    return creases_.try_flip(h, quad.left.normal, quad.right.normal) && guard_admits(quad, h);
+}
+
+void EdgeFlipper::flip(const Quad& quad, HalfEdge h) {
     log_.record_flip(h);
     mesh_.flip(h);
     creases_.commit();
-    state_.faces[face_of(h)] = quad.left.state(state_.sizes.relative(quad.left.size, quad.d, quad.c, quad.a));
-    state_.faces[face_of(g)] = quad.right.state(state_.sizes.relative(quad.right.size, quad.c, quad.d, quad.b));
+    state_.faces[face_of(h)] = Quad::state(quad.left, state_.sizes.relative(quad.left.size, quad.d, quad.c, quad.a));
+    state_.faces[face_of(mesh_.twin(h))] =
+        Quad::state(quad.right, state_.sizes.relative(quad.right.size, quad.c, quad.d, quad.b));
+}
+
+bool EdgeFlipper::flip_if_better(HalfEdge h) {
+    if (mesh_.is_crease(h) || is_beside_ghost(h)) return false;
+    if (std::min(state_.faces[face_of(h)].stretch, state_.faces[face_of(mesh_.twin(h))].stretch) > kGoodEnough) return false;
+    const Quad quad(mesh_, state_, h);
+    if (!(quad.gain() > kLeastGain) || !may_flip(quad) || !keeps_bounds(quad) || !guards_admit(quad, h)) return false;
+    flip(quad, h);
     return true;
+}
+
+template <class Value>
+bool EdgeFlipper::flip_best(Value value_of) {
+    std::vector<std::pair<double, HalfEdge>> candidates;
+    for (const HalfEdge h : open_) {
+        if (mesh_.is_crease(h) || is_beside_ghost(h)) continue;
+        const Quad quad(mesh_, state_, h);
+        const double value = value_of(quad);
+        if (value > 0 && may_flip(quad)) candidates.emplace_back(-value, h);
+    }
+    std::sort(candidates.begin(), candidates.end());
+    for (const auto& [value, h] : candidates) {
+        const Quad quad(mesh_, state_, h);
+        if (!guards_admit(quad, h)) continue;
+        flip(quad, h);
+        return true;
+    }
+    return false;
+}
+
+bool EdgeFlipper::relieve(std::uint32_t v) {
+    const auto stretch_left = [this](const Quad& quad) {
+        const Excess after = quad.excess_after(limits_.bounds);
+        const Excess before = quad.excess_before(limits_.bounds);
+        const bool admitted = after.none() || (after.worst <= before.worst && (after.kinds | before.kinds) == before.kinds);
+        return admitted ? quad.least_stretch() : 0.0;
+    };
+    bool flipped = false;
+    while (edges_at(v) > limits_.max_valence) {
+        open_.clear();
+        mesh_.for_each_outgoing(v, [this](HalfEdge h) { open_.push_back(h); });
+        if (!flip_best(stretch_left)) break;
+        flipped = true;
+    }
+    open_.clear();
+    return flipped;
+}
+
+bool EdgeFlipper::mend(std::uint32_t face) {
+    open_ = {3 * face, 3 * face + 1, 3 * face + 2};
+    const bool flipped = flip_best([this](const Quad& quad) {
+        const Excess before = quad.excess_before(limits_.bounds), after = quad.excess_after(limits_.bounds);
+        return after.lessens(before) ? before.sum - after.sum - kLeastGain : 0.0;
+    });
+    open_.clear();
+    return flipped;
 }
 
 void EdgeFlipper::flip_open_edges() {

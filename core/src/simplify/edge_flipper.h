@@ -12,7 +12,8 @@
 
 namespace vsplit {
 
-/// Flips edges where the smaller stretch of the two faces grows and both normals stay; never a crease. Tells the log.
+/// Flips edges where the smaller stretch of the two faces grows and both normals stay; never a crease, and no bound breaks that
+/// held. Tells the log.
 class EdgeFlipper {
 public:
     EdgeFlipper(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits)
@@ -32,6 +33,13 @@ public:
     /// Of the last flip_around; a face may be named more than once.
     [[nodiscard]] const std::vector<std::uint32_t>& changed_faces() const { return changed_; }
 
+    /// Flips edges away from v, those that leave the best shape first, until no more than max_valence are left: stretch may fall,
+    /// but no bound breaks that held. Whether any was flipped. O(valence^2).
+    bool relieve(std::uint32_t v);
+
+    /// Flips the edge of a face that breaks bounds which leaves its two faces nearest to keeping them. Whether one was flipped.
+    bool mend(std::uint32_t face);
+
 private:
     struct Quad;
 
@@ -39,6 +47,12 @@ private:
     [[nodiscard]] bool flip_if_better(HalfEdge h);
     [[nodiscard]] bool is_beside_ghost(HalfEdge h) const;
     [[nodiscard]] bool may_flip(const Quad& quad) const;
+    [[nodiscard]] bool keeps_bounds(const Quad& quad) const;
+    template <class Value>
+    [[nodiscard]] bool flip_best(Value value_of);
+    void flip(const Quad& quad, HalfEdge h);
+    [[nodiscard]] bool guards_admit(const Quad& quad, HalfEdge h);
+    [[nodiscard]] std::uint32_t edges_at(std::uint32_t v) const;
     [[nodiscard]] bool guard_admits(const Quad& quad, HalfEdge h);
     [[nodiscard]] bool has_edge(std::uint32_t from, std::uint32_t to) const;
 

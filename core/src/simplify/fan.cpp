@@ -137,6 +137,12 @@ double Fan::defect() const {
     return sum / static_cast<double>(size_);
 }
 
+Excess Fan::excess(const FaceBounds& bounds, const Vec3& apex, std::size_t first, std::size_t last) const {
+    Excess all;
+    for (std::size_t t = first; t < last; ++t) all.add(bounds.excess({apex, ring(t), ring(t + 1)}));
+    return all;
+}
+
 Vec3 Fan::centroid() const {
     Vec3 sum = Vec3::Zero();
     for (std::size_t t = 0; t < ring_size_; ++t) sum += Vec3(x_[t], y_[t], z_[t]);

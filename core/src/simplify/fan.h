@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "quality/face_bounds.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
@@ -46,6 +47,10 @@ public:
 
     /// Stretch and size of every face for k at `position`. O(faces).
     [[nodiscard]] Shape shape_at(const Vec3& position);
+
+    /// What faces [first, last) lack of `bounds` with k at `apex`. O(last - first).
+    [[nodiscard]] Excess excess(const FaceBounds& bounds, const Vec3& apex, std::size_t first, std::size_t last) const;
+    [[nodiscard]] Excess excess(const FaceBounds& bounds, const Vec3& apex) const { return excess(bounds, apex, 0, size_); }
 
     /// Faces.
     [[nodiscard]] std::size_t size() const { return size_; }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "quality/face_bounds.h"
 #include "simplify/fan.h"
 #include "vsplit/quality/stretch.h"
 #include "vsplit/simplify/quadric.h"
@@ -17,6 +18,7 @@ struct Before {
     double stretch_min = 0;
     double weight_sum = 0;  ///< of the policy's face_weight
     double vanishing = 2;   ///< of the faces; on a boundary one
+    Excess excess{};        ///< where the policy is shaped()
 };
 
 /// q(F) of the faces after a collapse, [Date05] Eq. 8: min St * mean St, at most 1.
@@ -27,13 +29,16 @@ struct Before {
 // A policy says which collapses are valid beyond topology, fold-over and tolerance, and in which order valid ones go. The
 // priorities of both methods are a factor known before the collapse times shape_quality after it.
 
-/// What the paper leaves as it is and the extended mode does not.
-struct StrictRules {
+/// What the paper leaves as it is and the extended mode does not. No bound on a face's shape unless the method sets one.
+struct StrictRules : FaceBounds {
     /// Creases are kept by their quadrics alone, shape by collapses alone.
     static constexpr bool kExtended = false;
 
     /// The largest error of a place; `square` is the tolerance squared.
     [[nodiscard]] static double error_limit(const Quadric& /*quadric*/, double square) { return square; }
+
+    /// Of a policy that is shaped(): beside `admits`.
+    [[nodiscard]] static bool admits_excess(const Before& /*before*/, const Excess& after) { return after.none(); }
 };
 
 /// Mesh quality improvement ([Date05] 4.2): rho = s * q(after) / q(before), q = min St * mean St, s = faces / sum of sizes.
@@ -56,24 +61,29 @@ struct ImprovePolicy : StrictRules {
     }
 };
 
-/// Mesh property control ([Date05] 5.2, Eq. 9): bounds on stretch, size and valence;
+/// Mesh property control ([Date05] 5.2, Eq. 9): bounds on stretch, size and valence, and beyond the paper all of FaceBounds;
 /// rho = 1 / (2 (n - 1)) * sum_before(tau_SZ / Sz) * min St * sum St over the n faces after.
 struct ControlPolicy : StrictRules {
-    double min_stretch = 0;
     double max_size = std::numeric_limits<double>::infinity();
     std::uint32_t max_valence = std::numeric_limits<std::uint32_t>::max();
     double size_unit = 1;         ///< tau_SZ where there is a bound, else any length: it scales all priorities alike
-    bool only_violators = false;  ///< phase one: only collapses that touch a face under min_stretch
+    bool only_violators = false;  ///< phase one: only collapses that touch a face which breaks a bound on its shape
 
     [[nodiscard]] static bool two_phases() { return true; }
     void enter_phase(int phase) { only_violators = phase == 1; }
     [[nodiscard]] double face_weight(double size) const { return size > 0 ? size_unit / size : kPointWeight; }
-    [[nodiscard]] bool eligible(const Before& before) const { return !only_violators || before.stretch_min < min_stretch; }
+    [[nodiscard]] bool eligible(const Before& before) const {
+        return !only_violators || before.stretch_min < min_stretch || !before.excess.none();
+    }
     [[nodiscard]] bool admits_valence(std::uint32_t valence) const { return valence <= max_valence; }
     /// In phase one a collapse may also leave a violator that is less of one: a strip of slivers mends a step at a time.
     [[nodiscard]] bool admits(const Before& before, const Fan::Shape& after) const {
         const bool mends = only_violators && after.stretch_min > before.stretch_min;
-        return (after.stretch_min >= min_stretch || mends) && after.size_max <= max_size;
+        return (after.stretch_min >= min_stretch || mends || shaped()) && after.size_max <= max_size;
+    }
+    /// Stretch included: `admits` leaves all shape to this.
+    [[nodiscard]] bool admits_excess(const Before& before, const Excess& after) const {
+        return after.none() || (only_violators && after.lessens(before.excess));
     }
     /// With n faces after, 1 / (2 (n - 1)) * min St * sum St = n / (2 (n - 1)) * shape quality. Inside n is at least 3; at the
     /// end of a boundary it may be 1.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simplify/edge_flipper.h"
+#include "simplify/mender.h"
 #include "simplify/vertex_mover.h"
 #include "vsplit/base/execution_context.h"
 
@@ -11,10 +12,16 @@ namespace vsplit {
 class Polisher {
 public:
     Polisher(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits)
-        : mesh_(mesh), flipper_(mesh, state, log, guards, limits), mover_(mesh, state, log, guards, limits) {}
+        : mesh_(mesh),
+          flipper_(mesh, state, log, guards, limits),
+          mover_(mesh, state, log, guards, limits),
+          mender_(mesh, state, flipper_, mover_, limits) {}
 
     /// `relaxations` rounds for the mean shape, then `lifts` for the worst faces. Stops early when cancelled. O(faces * rounds).
     void polish(int relaxations, int lifts, const ExecutionContext& context);
+
+    /// Mends what breaks a bound; see Mender.
+    void mend(int rounds, bool may_move, const ExecutionContext& context) { mender_.mend(rounds, may_move, context); }
 
     /// Flips after a collapse to v; see EdgeFlipper.
     [[nodiscard]] const std::vector<std::uint32_t>& flip_around(std::uint32_t v) {
@@ -29,6 +36,7 @@ private:
     HalfEdgeMesh& mesh_;
     EdgeFlipper flipper_;
     VertexMover mover_;
+    Mender mender_;
 };
 
 }  // namespace vsplit

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "quality/face_bounds.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
@@ -14,6 +15,7 @@ struct PolishLimits {
     double max_size = std::numeric_limits<double>::infinity();  ///< longest edge
     double crease_cosine = -1;                                  ///< of the angle from which on a crease counts as one
     std::uint32_t max_valence = std::numeric_limits<std::uint32_t>::max();
+    FaceBounds bounds{};
 };
 
 /// Gains of stretch below this are not worth a record.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <utility>
 
 #include "simplify/collapse_log.h"
@@ -28,6 +29,8 @@ constexpr int kDenseRelaxations = 3;
 constexpr int kCheckpointRelaxations = 2;
 constexpr int kFinalRelaxations = 10;
 constexpr int kFinalLifts = 4;
+constexpr int kCheckpointMends = 1;  // of bounds that are broken; moves cost as many lifts
+constexpr int kFinalMends = 8;
 
 /// A collapse that the guard refused so often is not tried again before the next checkpoint: trying is dear.
 constexpr std::uint8_t kMostRefusals = 3;
@@ -70,7 +73,7 @@ public:
     }
 
     [[nodiscard]] Expected<MultiresMesh> run() {
-        Status done = Policy::kExtended ? collapse_and_polish() : collapse_in_phases(input_.faces_min);
+        Status done = Policy::kExtended ? collapse_and_polish() : mend_and_collapse();
         if (!done) return done.error();
         context_.report({"simplify", 1, mesh_.live_faces()});
         return log_.build(mesh_, input_.ghosts);
@@ -83,7 +86,28 @@ private:
             limits.max_size = policy.max_size;
             limits.max_valence = policy.max_valence;
         }
+        limits.bounds = policy;
         return limits;
+    }
+
+    /// Bounds beside that on stretch, whose violators the phases of the paper mend.
+    [[nodiscard]] bool bounds_need_mending() const {
+        if constexpr (requires { policy_.max_valence; }) {
+            return policy_.shaped() || policy_.max_valence < std::numeric_limits<std::uint32_t>::max();
+        }
+        return false;
+    }
+
+    /// The strict mode: flips only, only before the first collapse, and only where a bound is broken that collapses hardly mend.
+    [[nodiscard]] Status mend_and_collapse() {
+        if (bounds_need_mending()) polisher_.mend(kFinalMends, false, context_);
+        return collapse_in_phases(input_.faces_min);
+    }
+
+    /// Vertices of too many edges are seldom mended later: faces around them have no room.
+    void polish(int relaxations, int lifts, bool asked) {
+        polisher_.polish(relaxations, lifts, context_);
+        if (asked || bounds_need_mending()) polisher_.mend(asked ? kFinalMends : kCheckpointMends, true, context_);
     }
 
     [[nodiscard]] std::unique_ptr<DeviationGuard> make_guard() const {
@@ -117,14 +141,14 @@ private:
 
     /// From checkpoint to checkpoint, so that no resolution is far from a polished one.
     [[nodiscard]] Status collapse_and_polish() {
-        polisher_.polish(kDenseRelaxations, 0, context_);
+        polish(kDenseRelaxations, 0, false);
         for (std::uint32_t faces = mesh_.live_faces(); has_collapses_above(input_.faces_min);) {
             const std::uint32_t goal = next_checkpoint(faces);
             if (Status done = collapse_in_phases(goal); !done) return done;
             // Polishing makes some more collapses valid, but ever fewer.
             const bool stuck = has_collapses_above(goal) && mesh_.live_faces() > kStuckShare * faces;
             const bool final = goal == input_.faces || (stuck && mesh_.live_faces() > input_.faces);
-            polisher_.polish(final ? kFinalRelaxations : kCheckpointRelaxations, final ? kFinalLifts : 0, context_);
+            polish(final ? kFinalRelaxations : kCheckpointRelaxations, final ? kFinalLifts : 0, final);
             if (context_.cancelled()) return ExecutionContext::cancelled_error();
             if (stuck) break;
             faces = mesh_.live_faces();

@@ -43,6 +43,8 @@ bool VertexMover::gather_star(std::uint32_t v) {
     quadric_ = state_.quadrics[v];
     error_limit_ = mean_error_limit(quadric_, limits_.tolerance * limits_.tolerance);
     size_limit_ = std::max(limits_.max_size, shape_.size_max);
+    stretch_limit_ = shape_.stretch_min >= limits_.bounds.min_stretch ? limits_.bounds.min_stretch : 0;
+    if (limits_.bounds.shaped()) excess_before_ = star_.excess(limits_.bounds, mesh_.position(v));
     return true;
 }
 
@@ -69,7 +71,13 @@ Vec3 VertexMover::ideal() const {
 bool VertexMover::admits(const Vec3& place) {
     if (!(quadric_.error(place) <= error_limit_) || !is_valid_position(place + limits_.centre)) return false;
     shape_ = star_.shape_at(place + limits_.centre);
-    return !shape_.folds && shape_.size_max <= size_limit_ && sizes_admit(place + limits_.centre);
+    return !shape_.folds && shape_.size_max <= size_limit_ && keeps_bounds(place + limits_.centre) &&
+           sizes_admit(place + limits_.centre);
+}
+
+bool VertexMover::keeps_bounds(const Vec3& position) const {
+    if (!limits_.bounds.shaped()) return shape_.stretch_min >= stretch_limit_;
+    return star_.excess(limits_.bounds, position).may_follow(excess_before_);
 }
 
 /// Whether no edge gets longer than its ends allow, or stays so.
@@ -84,10 +92,10 @@ bool VertexMover::sizes_admit(const Vec3& position) const {
     return true;
 }
 
-void VertexMover::put(std::uint32_t v, const Vec3& place) {
+bool VertexMover::put(std::uint32_t v, const Vec3& place) {
     static_cast<void>(star_.shape_at(place + limits_.centre));
-    if (!creases_.try_move(star_, place + limits_.centre)) return;
-    if (guard_ != nullptr && !replacement_.try_on(*guard_, star_, place + limits_.centre, {}, {v, kNone})) return;
+    if (!creases_.try_move(star_, place + limits_.centre)) return false;
+    if (guard_ != nullptr && !replacement_.try_on(*guard_, star_, place + limits_.centre, {}, {v, kNone})) return false;
     log_.record_move(v, mesh_.position(v));
     if (state_.sizes.given()) state_.sizes.put(v, state_.sizes.around(mesh_, v, place + limits_.centre));
     mesh_.move(v, place + limits_.centre);
@@ -97,6 +105,7 @@ void VertexMover::put(std::uint32_t v, const Vec3& place) {
         state_.faces[star_.face(t)] = {star_.normal(t), star_.stretch(t),
                                        state_.sizes.relative(star_.face_size(t), v, star_.vertex(t), after)};
     }
+    return true;
 }
 
 void VertexMover::relax(std::uint32_t v) {
@@ -111,25 +120,38 @@ void VertexMover::relax(std::uint32_t v) {
         least = star_.defect();
         best = place;
     }
-    if (best != here) put(v, best);
+    if (best != here) static_cast<void>(put(v, best));
 }
 
 void VertexMover::lift(std::uint32_t v, double goal) {
     if (!gather_star(v) || shape_.stretch_min >= goal) return;
+    static_cast<void>(search(v, [this](const Vec3&) { return shape_.stretch_min; }));
+}
+
+bool VertexMover::mend(std::uint32_t v) {
+    if (!gather_star(v)) return false;
+    const auto kept = [this](const Vec3& position) { return -star_.excess(limits_.bounds, position).sum; };
+    return kept(mesh_.position(v)) < 0 && search(v, kept);
+}
+
+template <class Value>
+bool VertexMover::search(std::uint32_t v, Value value_at) {
     Vec3 normal = Vec3::Zero();
     for (std::size_t t = 0; t < star_.size(); ++t) normal += star_.old_normal(t);
     const Vec3 u = normal.unitOrthogonal();
     const Vec3 w = normal.normalized().cross(u);
     const Vec3 here = mesh_.position(v) - limits_.centre;
     Vec3 best = here;
-    double most = shape_.stretch_min;
+    double most = value_at(mesh_.position(v));
     double step = kFirstStep * shape_.size_max;
     for (int halving = 0; halving < kHalvings;) {
         bool better = false;
         for (const auto& [x, y] : kPattern) {
             const Vec3 place = project_to_minimum(quadric_, along_boundary(best, best + step * (x * u + y * w)));
-            if (!admits(place) || !(shape_.stretch_min > most + kLeastGain)) continue;
-            most = shape_.stretch_min;
+            if (!admits(place)) continue;
+            const double value = value_at(place + limits_.centre);
+            if (!(value > most + kLeastGain)) continue;
+            most = value;
             best = place;
             better = true;
         }
@@ -137,7 +159,7 @@ void VertexMover::lift(std::uint32_t v, double goal) {
         step /= 2;
         ++halving;
     }
-    if (best != here) put(v, best);
+    return best != here && put(v, best);
 }
 
 }  // namespace vsplit

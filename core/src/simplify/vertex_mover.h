@@ -15,7 +15,8 @@ namespace vsplit {
 
 /// Moves vertices along the surface where the faces around them get a better shape. A vertex stays at the minimum of its quadric
 /// across the surface, so one on a crease moves along it and a corner not at all; one on an open boundary moves along that, and
-/// not at all where it is a corner or frozen. Tells the log.
+/// not at all where it is a corner or frozen. No bound breaks that held.
+/// Tells the log.
 class VertexMover {
 public:
     VertexMover(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits)
@@ -32,13 +33,21 @@ public:
     /// Where a face around v has a stretch under `goal`, searches nearby for a place that raises the least one. O(valence).
     void lift(std::uint32_t v, double goal);
 
+    /// Where a face around v breaks a bound, searches nearby for a place where they lack less to keep them. Whether v moved.
+    /// O(valence).
+    bool mend(std::uint32_t v);
+
 private:
     [[nodiscard]] bool gather_star(std::uint32_t v);
     [[nodiscard]] Vec3 along_boundary(const Vec3& here, const Vec3& wanted) const;
     [[nodiscard]] Vec3 ideal() const;
     [[nodiscard]] bool admits(const Vec3& place);
     [[nodiscard]] bool sizes_admit(const Vec3& position) const;
-    void put(std::uint32_t v, const Vec3& place);
+    [[nodiscard]] bool keeps_bounds(const Vec3& position) const;
+    /// Steps of a pattern to where value_at(position) is largest. Whether the vertex moved.
+    template <class Value>
+    [[nodiscard]] bool search(std::uint32_t v, Value value_at);
+    [[nodiscard]] bool put(std::uint32_t v, const Vec3& place);
 
     HalfEdgeMesh& mesh_;
     LocalState& state_;
@@ -54,6 +63,8 @@ private:
     Quadric quadric_;
     double error_limit_ = 0;
     double size_limit_ = 0;
+    double stretch_limit_ = 0;
+    Excess excess_before_;  // where bounds beside that on stretch are given
 };
 
 }  // namespace vsplit

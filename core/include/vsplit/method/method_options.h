@@ -54,6 +54,10 @@ struct ControlOptions {
     std::optional<double> min_stretch{};                  ///< tau_ST, 0..1; default 0.2
     std::optional<double> max_size{};                     ///< tau_SZ, > 0; default none
     std::optional<std::uint32_t> max_valence{};           ///< tau_VL, >= 6; default none
+    std::optional<double> min_angle{};                    ///< degrees, > 0, < 60: least angle of a face; default none
+    std::optional<double> max_angle{};                    ///< degrees, > 60, < 180: largest angle of a face; default none
+    std::optional<double> max_aspect_ratio{};             ///< longest edge of a face over its shortest, >= 1; default none
+    std::optional<double> min_size{};                     ///< > 0, at most max_size: least longest edge of a face; default none
     std::optional<double> feature_angle{};                ///< as in ImproveOptions
     std::optional<double> feature_weight{};               ///< as in ImproveOptions
     std::optional<std::uint32_t> faces{};                 ///< resolution of the result; default: as many as the source has

@@ -14,21 +14,23 @@ namespace vsplit {
 
 /// A bound of control that the mesh at the asked resolution breaks.
 struct Violation {
-    static constexpr std::size_t kExamples = 16;
+    static constexpr std::size_t kMostElements = 10'000;
 
-    std::string bound;                    ///< the option: "min_stretch", "max_size", "max_valence", "max_deviation"
+    std::string bound;                    ///< the field of the options, as "min_stretch" or "max_valence"
     double limit = 0;                     ///< what was asked
-    double worst = 0;                     ///< what the worst face or vertex has
+    double worst = 0;                     ///< what the worst face or vertex has, in the unit of the option
     std::uint32_t count = 0;              ///< faces (vertices for max_valence; 1 for max_deviation) that break it
-    std::vector<std::uint32_t> elements;  ///< the first kExamples of them
+    std::vector<std::uint32_t> elements;  ///< those faces or vertices, ascending, but at most kMostElements
     std::string reason;                   ///< one sentence: why it could not be mended
 };
 
 /// What both methods return: the MRR and the figures of the resolution that was asked for.
 struct MethodResult {
     MultiresMesh mrr;
-    MethodOptions options;               ///< as used, defaults filled in
-    std::uint32_t faces = 0;             ///< resolution shown: the nearest to the one asked for that exists
+    MethodOptions options;  ///< as used, defaults filled in
+    /// Resolution shown: the nearest to the one asked for that exists; near that one in control, and finer where max_deviation
+    /// is given, where bounds hold there and not at the nearest.
+    std::uint32_t faces = 0;
     std::uint32_t faces_subdivided = 0;  ///< faces before simplification; equals mrr.faces_max()
     Quality quality;                     ///< at `faces`
     std::vector<Violation> violations;   ///< at `faces`; empty when all bounds hold
