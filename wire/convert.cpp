@@ -240,6 +240,8 @@ SizingOptions from_proto(const v1::Sizing& proto) {
 v1::ImproveOptions to_proto(const ImproveOptions& options) {
     v1::ImproveOptions proto;
     if (options.subdivision_size) proto.set_subdivision_size(*options.subdivision_size);
+    if (options.min_stretch) proto.set_min_stretch(*options.min_stretch);
+    if (options.min_mean_stretch) proto.set_min_mean_stretch(*options.min_mean_stretch);
     set_common(options, proto);
     return proto;
 }
@@ -261,6 +263,8 @@ v1::ControlOptions to_proto(const ControlOptions& options) {
 Expected<ImproveOptions> from_proto(const v1::ImproveOptions& options) {
     ImproveOptions result;
     if (options.has_subdivision_size()) result.subdivision_size = options.subdivision_size();
+    if (options.has_min_stretch()) result.min_stretch = options.min_stretch();
+    if (options.has_min_mean_stretch()) result.min_mean_stretch = options.min_mean_stretch();
     if (Status common = get_common(options, result); !common) return common.error();
     return result;
 }

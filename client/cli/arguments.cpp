@@ -24,7 +24,7 @@ constexpr const char* kExitStatuses =
     "Exit status: 0 done; 1 not done, stderr says why; 2 done, but a bound of control could not be met.\n"
     "Example:\n  vsplit improve crankshaft.stl -o improved.vsplit -o improved.stl";
 
-constexpr const char* kSizingGroup = "Sizes that vary over the surface (not offered by this version)";
+constexpr const char* kSizingGroup = "Sizes that vary over the surface";
 
 /// Refuses what is no number, in the words of the engine, before CLI11 does in its own.
 template <class Number>
@@ -261,9 +261,16 @@ void add_improve(CLI::App& app, Arguments& a) {
                     "bounding box's diagonal (strict: 1 %), or more so that at most a million faces come out")
         ->check(real_number())
         ->type_name("S");
-    add_method(
-        verb, a, a.improve,
-        "a mean edge of --subdivide (strict: of 1.5 times as much, but at least twice as many as the coarsest resolution has)");
+    add_real(verb, "--min-stretch", a.improve.min_stretch,
+             "Leave no face of less stretch where none was; 0 to 1. Default 0.4 (strict: 0)")
+        ->type_name("X");
+    add_real(
+        verb, "--min-mean-stretch", a.improve.min_mean_stretch,
+        "Stop where the mean stretch gets less, but not before --faces; 0 to 1. Default 0.8 (strict, and with --faces-min: 0)")
+        ->type_name("X");
+    add_method(verb, a, a.improve,
+               "what sizes and --subdivide ask for, but no fewer than --min-mean-stretch takes (strict: a mean edge of 1.5 times "
+               "--subdivide, but at least twice as many as the coarsest resolution has)");
     verb.footer("Example:\n  vsplit improve crankshaft.stl --subdivide 8 --tolerance 1 --faces 30000 -o improved.vsplit");
 }
 

@@ -21,6 +21,7 @@ std::string option_of(const std::string& field) {
                                                                       {"mode", "--mode"},
                                                                       {"subdivisions", "--subdivisions"},
                                                                       {"min_stretch", "--min-stretch"},
+                                                                      {"min_mean_stretch", "--min-mean-stretch"},
                                                                       {"max_size", "--max-size"},
                                                                       {"max_valence", "--max-valence"},
                                                                       {"min_angle", "--min-angle"},

@@ -108,7 +108,11 @@ std::string common_options(const Options& o) {
 
 std::string option_lines(const v1::Representation& r) {
     if (r.has_improve_options()) {
-        return line("subdivided to", figure(r.improve_options().subdivision_size())) + common_options(r.improve_options());
+        const v1::ImproveOptions& o = r.improve_options();
+        std::string text = line("subdivided to", figure(o.subdivision_size()));
+        if (o.min_stretch() > 0) text += line("least stretch", figure(o.min_stretch()));
+        if (o.min_mean_stretch() > 0) text += line("least mean", figure(o.min_mean_stretch()));
+        return text + common_options(o);
     }
     if (!r.has_control_options()) return {};
     const v1::ControlOptions& o = r.control_options();

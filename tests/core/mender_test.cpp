@@ -28,8 +28,8 @@ std::uint32_t most_edges(const HalfEdgeMesh& mesh) {
 
 void mend(Polishing& p, const PolishLimits& limits, bool may_move) {
     const ExecutionContext context;
-    EdgeFlipper flipper(p.mesh, p.state, p.log, nullptr, limits);
-    VertexMover mover(p.mesh, p.state, p.log, nullptr, limits);
+    EdgeFlipper flipper(p.mesh, p.state, p.log, {}, limits);
+    VertexMover mover(p.mesh, p.state, p.log, {}, limits);
     Mender(p.mesh, p.state, flipper, mover, limits).mend(8, may_move, context);
 }
 

@@ -68,7 +68,7 @@ private:
                 if (mesh_.target(h) == crease.b) mesh_.mark_crease(h);
             });
         }
-        Polisher(mesh_, state_, log_, nullptr, limits).mend(8, false, ExecutionContext());
+        Polisher(mesh_, state_, log_, {}, limits).mend(8, false, ExecutionContext());
     }
 
     bool collapse_best() {

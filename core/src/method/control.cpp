@@ -8,6 +8,7 @@
 
 #include "base/thread_limit.h"
 #include "method/control_bounds.h"
+#include "method/flip_slivers.h"
 #include "method/mend_hubs.h"
 #include "method/nearby_faces.h"
 #include "method/report_creases.h"
@@ -26,6 +27,7 @@ ControlPolicy policy_of(const ControlOptions& used, double diagonal) {
     static_cast<FaceBounds&>(policy) = face_bounds(used);
     if (used.max_size) policy.max_size = *used.max_size;
     if (used.max_valence) policy.max_valence = *used.max_valence;
+    policy.floor = used.mode == Mode::kExtended ? kExtendedFloor : 0;
     policy.size_unit = used.max_size.value_or(diagonal);
     return policy;
 }
@@ -59,7 +61,7 @@ ControlOptions default_options(const TriangleMesh& mesh, const ControlOptions& o
     ControlOptions used = options;
     used.subdivisions = options.subdivisions.value_or(kDefaultSubdivisions);
     used.mode = options.mode.value_or(Mode::kExtended);
-    fill_tolerances(bounding_box(mesh).diagonal(), used);
+    fill_tolerances(mesh, used);
     used.min_stretch = options.min_stretch.value_or(kStretchFloor);
     used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
@@ -84,18 +86,30 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
 
     // What mends hubs knows no boundaries, and a size field belongs to the source's own faces.
     const std::shared_ptr<const CreasedMesh> mended = report.closed && !used.sizing ? mend_hubs(mesh, used, context) : nullptr;
-    const TriangleMesh& coarse = mended ? mended->mesh : mesh;
-    const Expected<std::optional<SizePlan>> sizes = plan_sizes(mesh, used.sizing, feature_options(used), usual_size(mesh, used));
-    if (!sizes) return sizes.error();
-    const bool frozen = *used.freeze_boundary && !report.closed;
-    Expected<SubdividedMesh> subdivided = subdivide(coarse, *sizes, used, frozen, limits.max_faces, context);
-    if (!subdivided) return subdivided.error();
     const bool extended = used.mode == Mode::kExtended;
-    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces, frozen, report.closed,
-                         *sizes ? &**sizes : nullptr, mended},
-                        extended,
-                        used.max_deviation.value_or(0),
-                        options.max_deviation};
+    const std::shared_ptr<const CreasedMesh> flipped = extended && !mended ? without_slivers(mesh, used, context) : mended;
+    const TriangleMesh& coarse = flipped ? flipped->mesh : mesh;
+    std::optional<SizePlan> sizes;
+    if (used.sizing) {
+        Expected<SizePlan> plan = plan_sizes(coarse, *used.sizing, creases_of(mesh, flipped, used), usual_size(mesh, used));
+        if (!plan) return plan.error();
+        sizes = *std::move(plan);
+    }
+    const bool frozen = *used.freeze_boundary && !report.closed;
+    Expected<SubdividedMesh> subdivided = subdivide(coarse, sizes, used, frozen, limits.max_faces, context);
+    if (!subdivided) return subdivided.error();
+    MethodRun run;
+    run.prepare = {.features = feature_options(used),
+                   .tolerance = *used.tolerance,
+                   .faces_min = *used.faces_min,
+                   .faces = *used.faces,
+                   .freeze_boundary = frozen,
+                   .closed = report.closed,
+                   .sizes = sizes ? &*sizes : nullptr,
+                   .replaced = flipped};
+    run.extended = extended;
+    run.max_deviation = used.max_deviation.value_or(0);
+    run.limit = options.max_deviation;
     const auto faces_of = [&](const MultiresMesh& mrr) { return faces_that_keep_bounds(mrr, used, options.faces.has_value()); };
     Expected<MethodResult> tried =
         run_policy(mesh, std::move(*subdivided), run, policy_of(used, bounding_box(mesh).diagonal()), faces_of, context);
@@ -106,7 +120,7 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     const TriangleMesh shown = mesh_at(result.mrr, result.mrr.level_for(result.faces));
     result.violations = find_violations(shown, used);
     explain(result, shown, used);
-    if (*sizes) report_sizes(result, mesh, **sizes);
+    if (sizes) report_sizes(result, coarse, *sizes);
     report_deviation(result, options.max_deviation);
     result.elapsed = std::chrono::steady_clock::now() - start;
     return result;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/thread_limit.h"
+#include "method/flip_slivers.h"
 #include "method/report_creases.h"
 #include "method/subdivision.h"
 #include "vsplit/mesh/inspect.h"
@@ -22,6 +24,13 @@ struct DefaultSizes {
 };
 constexpr DefaultSizes kStrictSizes{0.01, 1.5};
 constexpr DefaultSizes kExtendedSizes{0.015, 1};
+
+/// Mean stretch under which the extended mode does not go on by itself: a resolution coarser by a fifth is worse then by more
+/// than polishing gains.
+constexpr double kMeanFloor = 0.8;
+
+/// Default edges are no longer than so many times what they stand for.
+constexpr double kSizeOverThickness = 2;
 
 constexpr double kSizeGrowth = 1.25;
 constexpr std::uint64_t kDefaultFaceBudget = 1'000'000;
@@ -43,7 +52,8 @@ double affordable_size(const TriangleMesh& mesh, double size, double diagonal, s
 double default_subdivision_size(const TriangleMesh& mesh, const ImproveOptions& options, double diagonal,
                                 std::uint64_t host_limit) {
     if (options.mode == Mode::kStrict) return affordable_size(mesh, kStrictSizes.size_share * diagonal, diagonal, host_limit);
-    const double size = options.faces ? edge_of_faces(mesh, *options.faces) : kExtendedSizes.size_share * diagonal;
+    const double size = options.faces ? edge_of_faces(mesh, *options.faces)
+                                      : std::min(kExtendedSizes.size_share * diagonal, kSizeOverThickness * mean_thickness(mesh));
     return size > 0 ? affordable_size(mesh, size, diagonal, host_limit) : diagonal;
 }
 
@@ -56,15 +66,24 @@ std::uint32_t default_faces(const TriangleMesh& mesh, const ImproveOptions& used
     return face_count(faces);
 }
 
+ImprovePolicy policy_of(const ImproveOptions& used) {
+    ImprovePolicy policy;
+    policy.floor = *used.min_stretch;
+    if (used.mode == Mode::kExtended) policy.min_stretch = kStretchFloor;  // what is left under it is mended if that can be
+    return policy;
+}
+
 /// Sizes follow what is asked for, or curvature where neither sizes nor a number of faces are.
-Expected<std::optional<SizePlan>> plan_for(const TriangleMesh& mesh, const ImproveOptions& asked, const ImproveOptions& used,
-                                           const MethodLimits& limits) {
-    const bool free = used.mode == Mode::kExtended && !asked.sizing && !asked.faces && !asked.subdivision_size;
-    if (!free) return plan_sizes(mesh, sizing_options(used), feature_options(used), *used.subdivision_size);
+Expected<std::optional<SizePlan>> plan_for(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,
+                                           const ImproveOptions& asked, const ImproveOptions& used, const MethodLimits& limits) {
+    const auto given = [](Expected<SizePlan> plan) -> Expected<std::optional<SizePlan>> {
+        if (!plan) return plan.error();
+        return std::optional<SizePlan>(*std::move(plan));
+    };
+    if (used.sizing) return given(plan_sizes(mesh, *used.sizing, creases, *used.subdivision_size));
+    if (used.mode == Mode::kStrict || asked.faces || asked.subdivision_size) return std::optional<SizePlan>();
     const auto budget = static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.max_faces, kDefaultFaceBudget));
-    Expected<SizePlan> plan = plan_by_curvature(mesh, feature_options(used), *used.tolerance, *used.subdivision_size, budget);
-    if (!plan) return plan.error();
-    return std::optional<SizePlan>(*std::move(plan));
+    return given(plan_by_curvature(mesh, creases, *used.tolerance, *used.subdivision_size, budget));
 }
 
 /// To the sizes that are planned where they are smaller, and to `size`.
@@ -83,10 +102,13 @@ ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& o
     ImproveOptions used = options;
     used.mode = options.mode.value_or(Mode::kExtended);
     if (!used.subdivision_size) used.subdivision_size = default_subdivision_size(mesh, used, diagonal, limits.max_faces);
-    fill_tolerances(diagonal, used);
+    fill_tolerances(mesh, used);
     used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
+    const bool extended = used.mode == Mode::kExtended;
+    used.min_stretch = options.min_stretch.value_or(extended ? kExtendedFloor : 0);
+    used.min_mean_stretch = options.min_mean_stretch.value_or(extended && !options.faces_min ? kMeanFloor : 0);
     used.faces = options.faces ? *options.faces : std::max(default_faces(mesh, used), options.faces_min.value_or(4));
     used.faces_min = options.faces_min.value_or(kLeastFaces);
     used.freeze_boundary = options.freeze_boundary.value_or(false);
@@ -105,25 +127,37 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
     ImproveOptions used = default_options(mesh, options, limits);
 
-    const Expected<std::optional<SizePlan>> sizes = plan_for(mesh, options, used, limits);
+    const bool extended = used.mode == Mode::kExtended;
+    const std::shared_ptr<const CreasedMesh> flipped = extended ? without_slivers(mesh, used, context) : nullptr;
+    const TriangleMesh& coarse = flipped ? flipped->mesh : mesh;
+    if (flipped) used = default_options(coarse, options, limits);  // its sizes may be smaller
+    const Expected<std::optional<SizePlan>> sizes = plan_for(coarse, creases_of(mesh, flipped, used), options, used, limits);
     if (!sizes) return sizes.error();
     const bool frozen = *used.freeze_boundary && !report.closed;
-    Expected<SubdividedMesh> subdivided = subdivide(mesh, *sizes, *used.subdivision_size, frozen, limits.max_faces, context);
+    Expected<SubdividedMesh> subdivided = subdivide(coarse, *sizes, *used.subdivision_size, frozen, limits.max_faces, context);
     if (!subdivided) return subdivided.error();
-    if (*sizes && !options.faces) used.faces = std::max(face_count(wanted_faces(*subdivided, mesh, **sizes)), *used.faces_min);
-    const bool extended = used.mode == Mode::kExtended;
-    const MethodRun run{{feature_options(used), *used.tolerance, *used.faces_min, *used.faces, frozen, report.closed,
-                         *sizes ? &**sizes : nullptr},
-                        extended,
-                        used.max_deviation.value_or(0),
-                        options.max_deviation};
+    if (*sizes && !options.faces) used.faces = std::max(face_count(wanted_faces(*subdivided, coarse, **sizes)), *used.faces_min);
+    MethodRun run;
+    run.prepare = {.features = feature_options(used),
+                   .tolerance = *used.tolerance,
+                   .faces_min = *used.faces_min,
+                   .faces = *used.faces,
+                   .mean_floor = *used.min_mean_stretch,
+                   .floor_from = options.faces.value_or(std::numeric_limits<std::uint32_t>::max()),
+                   .freeze_boundary = frozen,
+                   .closed = report.closed,
+                   .sizes = *sizes ? &**sizes : nullptr,
+                   .replaced = flipped};
+    run.extended = extended;
+    run.max_deviation = used.max_deviation.value_or(0);
+    run.limit = options.max_deviation;
     const auto faces_of = [&](const MultiresMesh& mrr) {
         return options.faces || extended ? *used.faces : std::max(*used.faces, kFacesOverCoarsest * mrr.faces_min());
     };
-    Expected<MethodResult> tried = run_policy(mesh, std::move(*subdivided), run, ImprovePolicy{}, faces_of, context);
+    Expected<MethodResult> tried = run_policy(mesh, std::move(*subdivided), run, policy_of(used), faces_of, context);
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
-    if (options.sizing) report_sizes(result, mesh, **sizes);
+    if (options.sizing) report_sizes(result, coarse, **sizes);
     if (Status told = report_creases(result, mesh, run, context); !told) return told.error();
     report_deviation(result, options.max_deviation);
     if (!options.faces) used.faces = result.faces;

@@ -41,7 +41,7 @@ public:
         return any;
     }
 
-    [[nodiscard]] CreasedMesh result() const { return {mesh_.mesh(), mesh_.creases()}; }
+    [[nodiscard]] CreasedMesh result() const { return {.mesh = mesh_.mesh(), .creases = mesh_.creases()}; }
 
 private:
     bool mend(std::uint32_t hub) {

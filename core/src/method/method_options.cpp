@@ -129,6 +129,8 @@ FeatureOptions features_of(const Options& options) {
 
 Status check_options(const ImproveOptions& options) {
     if (Status s = check_range(options.subdivision_size, kPositive, "subdivision_size"); !s) return s;
+    if (Status s = check_range(options.min_stretch, kStretch, "min_stretch"); !s) return s;
+    if (Status s = check_range(options.min_mean_stretch, kStretch, "min_mean_stretch"); !s) return s;
     return check_common(options, {});
 }
 

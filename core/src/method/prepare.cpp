@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "features/boundary_corners.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/cap_boundaries.h"
+#include "mesh/half_edges.h"
 #include "mesh/spatial_order.h"
 #include "quality/deviation_of_index.h"
 #include "vsplit/features/face_normals.h"
@@ -82,16 +84,36 @@ constexpr double kCornerReach = 4;
 
 }  // namespace
 
+namespace {
+
+bool is_closed(const TriangleMesh& mesh) {
+    const std::vector<HalfEdge> twins = half_edge_twins(mesh);
+    return std::find(twins.begin(), twins.end(), kNone) == twins.end();
+}
+
+}  // namespace
+
+double mean_thickness(const TriangleMesh& mesh) {
+    const double volume = std::abs(enclosed_volume(mesh));
+    return volume > 0 && is_closed(mesh) ? 3 * volume / surface_area(mesh) : std::numeric_limits<double>::infinity();
+}
+
+double default_tolerance(const TriangleMesh& mesh) {
+    constexpr double kThicknessShare = 0.2;
+    return std::min(kDefaultToleranceShare * bounding_box(mesh).diagonal(), kThicknessShare * mean_thickness(mesh));
+}
+
 SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options) {
     const BoundingBox box = bounding_box(source);
     order_spatially(subdivided);
-    const TriangleMesh& coarse = options.mended ? options.mended->mesh : source;
+    const TriangleMesh& coarse = options.replaced ? options.replaced->mesh : source;
     const FaceNormals source_normals = face_normals(coarse);
     FaceNormals normals = inherit(source_normals, subdivided.parent);
     SimplifyInput input;
     input.centre = (box.min + box.max) / 2;
-    input.creases = creases_on(subdivided, coarse,
-                               options.mended ? options.mended->creases : find_creases(source, source_normals, options.features));
+    input.creases =
+        creases_on(subdivided, coarse,
+                   options.replaced ? options.replaced->creases : find_creases(source, source_normals, options.features));
     if (!options.closed) {
         input.creases = with_heavy_boundary(std::move(input.creases), subdivided.mesh);
         input.boundary_corners = boundary_corners(subdivided.mesh, {options.features.angle, kCornerReach * options.tolerance});
@@ -99,7 +121,7 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
     }
     input.quadrics = vertex_quadrics(subdivided.mesh, normals, input.creases, input.centre);
     if (options.sizes != nullptr) {
-        input.sizes = allowed_sizes(subdivided, source, *options.sizes);
+        input.sizes = allowed_sizes(subdivided, coarse, *options.sizes);
         input.usual_size = options.sizes->usual;
         input.sizes_bind = options.sizes->binding;
     }
@@ -109,6 +131,8 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
     input.tolerance = options.tolerance;
     input.faces_min = options.faces_min;
     input.faces = options.faces;
+    input.mean_floor = options.mean_floor;
+    input.floor_from = options.floor_from;
     if (!options.closed) cap(input);
     return input;
 }
@@ -126,12 +150,30 @@ bool has_needles(const TriangleMesh& mesh) {
     return squares > kMuch * surface_area(mesh);
 }
 
+/// The same surface in smaller faces.
+TriangleMesh without_needles(const TriangleMesh& mesh) {
+    constexpr double kShare = 0.015;
+    constexpr double kGrowth = 1.25;
+    constexpr std::uint32_t kMostFaces = 2'000'000;
+    const double diagonal = bounding_box(mesh).diagonal();
+    double size = kShare * diagonal;
+    while (size < diagonal && predict_subdivision(mesh, size, kMostFaces) > kMostFaces) size *= kGrowth;
+    Expected<SubdividedMesh> fine = subdivide_to_size(mesh, size, std::max(kMostFaces, mesh.face_count()), {});
+    return fine ? std::move(fine->mesh) : mesh;
+}
+
 }  // namespace
 
-void guard(SimplifyInput& input, const TriangleMesh& source, double distance) {
-    input.source = std::make_shared<const SurfaceIndex>(
-        surface_index(has_needles(source) ? visible_mesh(input.mesh, input.ghosts) : source));
-    input.max_deviation = distance;
+Reference reference_for(const TriangleMesh& source, const std::shared_ptr<const CreasedMesh>& replaced) {
+    constexpr double kNothing = 1e-6;  // of the diagonal
+    const bool usable = replaced && replaced->moved <= kNothing * bounding_box(source).diagonal();
+    return usable && has_needles(source) ? Reference{replaced->mesh, replaced->moved} : Reference{source, 0};
+}
+
+void guard(SimplifyInput& input, const Reference& reference, double distance) {
+    const TriangleMesh& mesh = reference.mesh;
+    input.source = std::make_shared<const SurfaceIndex>(surface_index(has_needles(mesh) ? without_needles(mesh) : mesh));
+    input.max_deviation = distance - reference.moved;
 }
 
 namespace {
@@ -154,18 +196,20 @@ DeviationOptions accuracy_for(std::optional<double> limit, double diagonal) {
     return options;
 }
 
-Status measure(MethodResult& result, const TriangleMesh& source, const SurfaceIndex* source_index, std::optional<double> limit,
+Status measure(MethodResult& result, const Reference& reference, const SurfaceIndex* reference_index, std::optional<double> limit,
                bool may_refine, const ExecutionContext& context) {
-    if (source_index == nullptr) return Done{};
+    if (reference_index == nullptr) return Done{};
+    const TriangleMesh& source = reference.mesh;
     const DeviationOptions options = accuracy_for(limit, bounding_box(source).diagonal());
     std::size_t level = result.mrr.level_for(result.faces);
     for (;;) {
         const TriangleMesh mesh = mesh_at(result.mrr, level);
         const SurfaceIndex index = surface_index(mesh);
-        const Expected<Deviation> deviation = measure_deviation({mesh, index}, {source, *source_index}, options, context);
+        const Expected<Deviation> deviation = measure_deviation({mesh, index}, {source, *reference_index}, options, context);
         if (!deviation) return deviation.error();
-        show(result, level, mesh, deviation->max());
-        const bool kept = !limit || deviation->max() <= *limit;
+        const double most = deviation->max() + reference.moved;
+        show(result, level, mesh, most);
+        const bool kept = !limit || most <= *limit;
         if (kept || !may_refine || level == result.mrr.levels()) return Done{};
         level = std::min(result.mrr.levels(), level + std::max<std::size_t>(1, result.mrr.levels() / 10));
     }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+#include <memory>
+
 #include "method/size_plan.h"
 #include "simplify/simplify.h"
 #include "spatial/surface_index.h"
@@ -14,6 +17,8 @@ namespace vsplit {
 struct CreasedMesh {
     TriangleMesh mesh;
     std::vector<SharpEdge> creases;
+    double moved =
+        std::numeric_limits<double>::infinity();  ///< the source is certainly no further from it, nor it from the source
 };
 
 /// What both methods hand to the simplifier, defaults filled in.
@@ -22,40 +27,56 @@ struct PrepareOptions {
     double tolerance = 0;
     std::uint32_t faces_min = 0;
     std::uint32_t faces = 0;
+    double mean_floor = 0;         ///< see SimplifyInput
+    std::uint32_t floor_from = 0;  ///< see SimplifyInput
     bool freeze_boundary = false;
-    bool closed = false;                          ///< the source is known to have no boundary, so none is looked for
-    const SizePlan* sizes = nullptr;              ///< null: the same size everywhere
-    std::shared_ptr<const CreasedMesh> mended{};  ///< what was subdivided in place of the source; null: the source itself
+    bool closed = false;                            ///< the source is known to have no boundary, so none is looked for
+    const SizePlan* sizes = nullptr;                ///< null: the same size everywhere
+    std::shared_ptr<const CreasedMesh> replaced{};  ///< what was subdivided in place of the source; null: the source itself
 };
 
 /// Normals, creases and quadrics of a subdivided mesh, whose boundaries are then closed by ghosts. Normals are those of the
 /// source's faces: subdivision does not change the surface, but slivers cut small no longer show where they look. O(faces).
 [[nodiscard]] SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options);
 
+/// How thick a closed part is in the mean: three times its volume over its surface, which is the radius of a sphere. Infinity for
+/// what encloses nothing. O(faces).
+[[nodiscard]] double mean_thickness(const TriangleMesh& mesh);
+
+/// Tolerance where none is asked for: a share of the diagonal, but thin parts stay what they are. O(faces).
+[[nodiscard]] double default_tolerance(const TriangleMesh& mesh);
+
 /// Fills in `tolerance` and, in the extended mode, `max_deviation`: either follows from the other where that is given.
 template <class Options>
-void fill_tolerances(double diagonal, Options& options) {
+void fill_tolerances(const TriangleMesh& mesh, Options& options) {
     constexpr double kDeviationOverTolerance = 2;
     if (!options.tolerance) {
-        options.tolerance =
-            options.max_deviation ? *options.max_deviation / kDeviationOverTolerance : kDefaultToleranceShare * diagonal;
+        options.tolerance = options.max_deviation ? *options.max_deviation / kDeviationOverTolerance : default_tolerance(mesh);
     }
     if (options.mode == Mode::kExtended && !options.max_deviation) {
         options.max_deviation = kDeviationOverTolerance * *options.tolerance;
     }
 }
 
-/// Has the simplifier keep its samples within `distance` of `source`, both ways. O(faces log faces).
-void guard(SimplifyInput& input, const TriangleMesh& source, double distance);
+/// What deviations are measured from: the source, or what replaces it where that is nearly the same and the source is full of
+/// needles.
+struct Reference {
+    const TriangleMesh& mesh;
+    double moved = 0;  ///< the source is no further from it, nor it from the source
+};
+[[nodiscard]] Reference reference_for(const TriangleMesh& source, const std::shared_ptr<const CreasedMesh>& replaced);
+
+/// Has the simplifier keep its samples within `distance` of `reference`, both ways. O(faces log faces).
+void guard(SimplifyInput& input, const Reference& reference, double distance);
 
 /// How close distances to a source of this diagonal are measured: where a limit is given it is the upper bound that counts, and
 /// a limit may be far below the default error.
 [[nodiscard]] DeviationOptions accuracy_for(std::optional<double> limit, double diagonal);
 
 /// Measures how far the result's shown resolution and its source are apart. Where that is more than `limit` and it `may_refine`,
-/// shows a finer resolution that keeps to it, or else the finest. Does nothing without an index of the source. Stage "measure".
+/// shows a finer resolution that keeps to it, or else the finest. Does nothing without an index. Stage "measure".
 /// \return CANCELLED.
-[[nodiscard]] Status measure(MethodResult& result, const TriangleMesh& source, const SurfaceIndex* source_index,
+[[nodiscard]] Status measure(MethodResult& result, const Reference& reference, const SurfaceIndex* reference_index,
                              std::optional<double> limit, bool may_refine, const ExecutionContext& context);
 
 /// A violation where the shown resolution was measured to be further than `limit` from the source.

@@ -21,14 +21,15 @@ template <class Policy, class Faces>
                                                     double share, bool last, const Policy& policy, Faces faces_of,
                                                     const ExecutionContext& context) {
     SimplifyInput input = prepare(source, std::move(dense), run.prepare);
-    if (run.extended) guard(input, source, share * run.max_deviation);
+    const Reference reference = reference_for(source, run.prepare.replaced);
+    if (run.extended) guard(input, reference, share * run.max_deviation);
     const std::shared_ptr<const SurfaceIndex> index = input.source;
     Expected<MultiresMesh> mrr = run.extended ? simplify(std::move(input), Extended<Policy>{policy}, context)
                                               : simplify(std::move(input), policy, context);
     if (!mrr) return mrr.error();
     const std::uint32_t faces = faces_of(*mrr);
     MethodResult result = describe_resolution(std::move(*mrr), faces);
-    const Status measured = measure(result, source, index.get(), run.limit, last, context);
+    const Status measured = measure(result, reference, index.get(), run.limit, last, context);
     return measured ? Expected<MethodResult>(std::move(result)) : measured.error();
 }
 

@@ -14,30 +14,25 @@ constexpr double kChordShare = 2;    // of the tolerance: what max_deviation is 
 constexpr double kLeastShare = 0.2;  // of the usual size
 constexpr double kGrowth = 1.25;
 
-Expected<SizeField> field_of(const TriangleMesh& mesh, const SizingOptions& sizing, const FeatureOptions& features) {
-    return make_size_field(mesh, sizing, find_creases(mesh, face_normals(mesh), features));
-}
-
 double mean_of(const std::vector<double>& sizes, const Triangle& t) { return (sizes[t[0]] + sizes[t[1]] + sizes[t[2]]) / 3; }
 
 }  // namespace
 
-Expected<std::optional<SizePlan>> plan_sizes(const TriangleMesh& mesh, const std::optional<SizingOptions>& sizing,
-                                             const FeatureOptions& features, double usual) {
-    if (!sizing) return std::optional<SizePlan>();
-    Expected<SizeField> field = field_of(mesh, *sizing, features);
+Expected<SizePlan> plan_sizes(const TriangleMesh& mesh, const SizingOptions& sizing, const std::vector<SharpEdge>& creases,
+                              double usual) {
+    Expected<SizeField> field = make_size_field(mesh, sizing, creases);
     if (!field) return field.error();
-    return std::optional<SizePlan>({*std::move(field), usual, true});
+    return SizePlan{*std::move(field), usual, true};
 }
 
-Expected<SizePlan> plan_by_curvature(const TriangleMesh& mesh, const FeatureOptions& features, double tolerance, double usual,
-                                     std::uint32_t face_budget) {
+Expected<SizePlan> plan_by_curvature(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases, double tolerance,
+                                     double usual, std::uint32_t face_budget) {
     SizingOptions sizing;
     sizing.chord_error = kChordShare * tolerance;
     sizing.max_size = usual;
     for (double least = kLeastShare * usual;; least *= kGrowth) {
         sizing.min_size = std::min(least, usual);
-        Expected<SizeField> field = field_of(mesh, sizing, features);
+        Expected<SizeField> field = make_size_field(mesh, sizing, creases);
         if (!field) return field.error();
         if (least >= usual || predict_subdivision(mesh, *field, face_budget) <= face_budget) {
             return SizePlan{*std::move(field), usual, false};

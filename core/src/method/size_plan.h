@@ -18,14 +18,14 @@ struct SizePlan {
     bool binding = false;  ///< no edge may be longer than the field allows; else sizes only say what is collapsed first
 };
 
-/// The plan for what the user asks for, if anything. \return INVALID_OPTION. O(faces log faces).
-[[nodiscard]] Expected<std::optional<SizePlan>> plan_sizes(const TriangleMesh& mesh, const std::optional<SizingOptions>& sizing,
-                                                           const FeatureOptions& features, double usual);
+/// The plan for what the user asks for. `creases` are those of `mesh`. \return INVALID_OPTION. O(faces log faces).
+[[nodiscard]] Expected<SizePlan> plan_sizes(const TriangleMesh& mesh, const SizingOptions& sizing,
+                                            const std::vector<SharpEdge>& creases, double usual);
 
 /// The plan where nothing is asked for: faces get smaller than `usual` where the surface bends, so that a chord stays within half
 /// of `tolerance` of it, but no more than are worth waiting for. O(faces log faces + face_budget).
-[[nodiscard]] Expected<SizePlan> plan_by_curvature(const TriangleMesh& mesh, const FeatureOptions& features, double tolerance,
-                                                   double usual, std::uint32_t face_budget);
+[[nodiscard]] Expected<SizePlan> plan_by_curvature(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,
+                                                   double tolerance, double usual, std::uint32_t face_budget);
 
 /// Sizes allowed at the vertices of `fine`, a subdivision of `source`. O(faces log faces).
 [[nodiscard]] std::vector<double> allowed_sizes(const SubdividedMesh& fine, const TriangleMesh& source, const SizePlan& plan);

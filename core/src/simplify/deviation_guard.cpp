@@ -41,13 +41,30 @@ bool DeviationGuard::stays_in_plane(const NewFace& f) const {
     return f.old_normal != Vec3::Zero() && std::abs(f.old_normal.dot(f.apex - f.b)) <= kNothing * limit_;
 }
 
+bool DeviationGuard::inside_reaches_source(const NewFace& f) const {
+    constexpr double kLong = 32;  // limits
+    constexpr double kMostSteps = 16;
+    const Vec3 side = (f.b + f.c) / 2;
+    const double steps =
+        std::clamp(std::ceil(std::max((f.apex - f.b).norm(), (f.apex - side).norm()) / (kLong * limit_)), 1.0, kMostSteps);
+    if (steps == 1 && stays_in_plane(f)) return true;
+    for (double n = 0.5; n < steps; ++n) {
+        const double share = n / steps;
+        // The middle of a face is a third up from its side.
+        if (!source_.within(f.apex + share * (f.b - f.apex), limit_)) return false;
+        if (!source_.within(side + 2 * share / 3 * (f.apex - side), limit_)) return false;
+    }
+    return true;
+}
+
 bool DeviationGuard::reaches_source(std::span<const NewFace> faces) const {
     bool apex_tried = false;
     for (const NewFace& f : faces) {
-        if (stays_in_plane(f)) continue;
-        if (!apex_tried && !source_.within(f.apex, limit_)) return false;
-        apex_tried = true;
-        if (!source_.within((f.apex + f.b) / 2, limit_) || !source_.within((f.apex + f.b + f.c) / 3, limit_)) return false;
+        if (!apex_tried && !stays_in_plane(f)) {
+            if (!source_.within(f.apex, limit_)) return false;
+            apex_tried = true;
+        }
+        if (!inside_reaches_source(f)) return false;
     }
     return true;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "quality/face_bounds.h"
 #include "vsplit/mesh/triangle_mesh.h"
@@ -45,9 +46,16 @@ struct FlipQuad {
     }
 
     /// Whether the two diagonals pass each other within `gap`: what the flip moves the surface by.
-    [[nodiscard]] bool moves_surface_within(double gap) const {
+    [[nodiscard]] bool moves_surface_within(double most) const {
         const Vec3 across = (pb - pa).cross(pd - pc);
-        return std::abs(across.dot(pc - pa)) <= gap * across.norm();
+        return std::abs(across.dot(pc - pa)) <= most * across.norm();
+    }
+
+    /// How far the diagonals pass each other; infinity where they are parallel.
+    [[nodiscard]] double gap() const {
+        const Vec3 across = (pb - pa).cross(pd - pc);
+        const double length = across.norm();
+        return length > 0 ? std::abs(across.dot(pc - pa)) / length : std::numeric_limits<double>::infinity();
     }
 
     [[nodiscard]] Excess excess_before(const FaceBounds& bounds) const {

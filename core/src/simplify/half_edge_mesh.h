@@ -42,6 +42,12 @@ public:
     [[nodiscard]] const Vec3& position(std::uint32_t v) const { return positions_[v]; }
     [[nodiscard]] bool removed(HalfEdge h) const { return half_edges_[h].twin == kNone; }
 
+    /// Whether a face is there, and not one at a ghost.
+    [[nodiscard]] bool visible(std::uint32_t face) const {
+        const HalfEdge h = 3 * face;
+        return !removed(h) && (ghosts_ == 0 || std::min({origin(h), origin(h + 1), origin(h + 2)}) >= ghosts_);
+    }
+
     /// The number an edge goes by: the smaller of its half-edges.
     [[nodiscard]] HalfEdge edge_of(HalfEdge h) const { return std::min(h, twin(h)); }
 

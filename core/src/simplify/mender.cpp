@@ -7,13 +7,8 @@ constexpr std::uint32_t kLookEvery = 1024;  // faces, between two looks for a ca
 
 }  // namespace
 
-bool Mender::is_ghost_face(std::uint32_t face) const {
-    const auto is_ghost = [&](HalfEdge h) { return state_.border.is_ghost(mesh_.origin(h)); };
-    return !state_.border.empty() && (is_ghost(3 * face) || is_ghost(3 * face + 1) || is_ghost(3 * face + 2));
-}
-
 bool Mender::is_broken(std::uint32_t face) const {
-    if (mesh_.removed(3 * face) || is_ghost_face(face)) return false;
+    if (!mesh_.visible(face)) return false;
     if (!limits_.bounds.shaped()) return state_.faces[face].stretch < limits_.bounds.min_stretch;
     const auto at = [&](HalfEdge h) { return mesh_.position(mesh_.origin(h)); };
     return limits_.bounds.excess({at(3 * face), at(3 * face + 1), at(3 * face + 2)}).sum > 0;

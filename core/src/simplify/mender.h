@@ -23,7 +23,6 @@ private:
     [[nodiscard]] bool relieve_vertices();
     [[nodiscard]] bool mend_faces(bool may_move, const ExecutionContext& context);
     [[nodiscard]] bool mend_face(std::uint32_t face, bool may_move);
-    [[nodiscard]] bool is_ghost_face(std::uint32_t face) const;
     [[nodiscard]] bool is_broken(std::uint32_t face) const;
 
     const HalfEdgeMesh& mesh_;

@@ -34,6 +34,12 @@ struct StrictRules : FaceBounds {
     /// Creases are kept by their quadrics alone, shape by collapses alone.
     static constexpr bool kExtended = false;
 
+    double floor = 0;  ///< of stretch: no collapse leaves a face under it where none was; the paper has none
+
+    [[nodiscard]] bool keeps_floor(const Before& before, const Fan::Shape& after) const {
+        return after.stretch_min >= std::min(floor, before.stretch_min);
+    }
+
     /// The largest error of a place; `square` is the tolerance squared.
     [[nodiscard]] static double error_limit(const Quadric& /*quadric*/, double square) { return square; }
 
@@ -52,7 +58,7 @@ struct ImprovePolicy : StrictRules {
     [[nodiscard]] static double face_weight(double size) { return size; }
     [[nodiscard]] static bool eligible(const Before& /*before*/) { return true; }
     [[nodiscard]] static bool admits_valence(std::uint32_t /*valence*/) { return true; }
-    [[nodiscard]] static bool admits(const Before& /*before*/, const Fan::Shape& /*after*/) { return true; }
+    [[nodiscard]] bool admits(const Before& before, const Fan::Shape& after) const { return keeps_floor(before, after); }
 
     [[nodiscard]] static double factor(const Before& before) {
         const double s = before.weight_sum > 0 ? before.faces / before.weight_sum : kUrgent;
@@ -79,7 +85,8 @@ struct ControlPolicy : StrictRules {
     /// In phase one a collapse may also leave a violator that is less of one: a strip of slivers mends a step at a time.
     [[nodiscard]] bool admits(const Before& before, const Fan::Shape& after) const {
         const bool mends = only_violators && after.stretch_min > before.stretch_min;
-        return (after.stretch_min >= min_stretch || mends || shaped()) && after.size_max <= max_size;
+        return (after.stretch_min >= min_stretch || mends || shaped()) && after.size_max <= max_size &&
+               keeps_floor(before, after);
     }
     /// Stretch included: `admits` leaves all shape to this.
     [[nodiscard]] bool admits_excess(const Before& before, const Excess& after) const {
@@ -103,19 +110,16 @@ private:
     return square * std::max(1.0, quadric.trace());
 }
 
+/// Least stretch that collapses of the extended mode leave, where nothing else is asked for.
+inline constexpr double kExtendedFloor = 0.4;
+
 /// The extended mode of either method (docs/method.md): collapses keep creases apart and valences even, and the simplifier flips
 /// edges and moves vertices between them.
 template <class Method>
 struct Extended : Method {
     static constexpr bool kExtended = true;
-    static constexpr double kFloor = 0.4;
 
     [[nodiscard]] static double error_limit(const Quadric& quadric, double square) { return mean_error_limit(quadric, square); }
-
-    /// A collapse may not leave a face under the floor, where none was before.
-    [[nodiscard]] bool admits(const Before& before, const Fan::Shape& after) const {
-        return Method::admits(before, after) && after.stretch_min >= std::min(kFloor, before.stretch_min);
-    }
 };
 
 }  // namespace vsplit

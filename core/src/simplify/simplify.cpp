@@ -25,6 +25,7 @@ constexpr std::uint32_t kReportEvery = 1024;
 // How the extended mode polishes: the dense mesh, checkpoints after each fifth of the faces, and the resolution asked for.
 constexpr double kCheckpointShare = 0.8;
 constexpr double kStuckShare = 0.98;  // of the faces at the last checkpoint: no use going on
+constexpr double kBestShare = 0.95;   // of the best mean stretch so far: no floor asks for more
 constexpr int kDenseRelaxations = 3;
 constexpr int kCheckpointRelaxations = 2;
 constexpr int kFinalRelaxations = 10;
@@ -98,12 +99,6 @@ private:
         return false;
     }
 
-    /// The strict mode: flips only, only before the first collapse, and only where a bound is broken that collapses hardly mend.
-    [[nodiscard]] Status mend_and_collapse() {
-        if (bounds_need_mending()) polisher_.mend(kFinalMends, false, context_);
-        return collapse_in_phases(input_.faces_min);
-    }
-
     /// Vertices of too many edges are seldom mended later: faces around them have no room.
     void polish(int relaxations, int lifts, bool asked) {
         polisher_.polish(relaxations, lifts, context_);
@@ -133,27 +128,65 @@ private:
         const HalfEdge g = mesh_.twin(h);
         const bool inside = !state_.border.is_ghost(mesh_.origin(prev(h))) && !state_.border.is_ghost(mesh_.origin(prev(g)));
         const float cosine = state_.faces[face_of(h)].normal.dot(state_.faces[face_of(g)].normal);
-        inside&& cosine < input_.crease_cosine ? mesh_.mark_crease(h) : mesh_.mark_kept_flat(h);
+        if (inside && cosine < input_.crease_cosine) {
+            mesh_.mark_crease(h);
+        } else {
+            mesh_.mark_kept_flat(h);
+        }
     }
 
     /// Whether a collapse leaves no fewer than `faces`.
     [[nodiscard]] bool has_collapses_above(std::uint32_t faces) const { return mesh_.live_faces() >= std::uint64_t{faces} + 2; }
 
-    /// From checkpoint to checkpoint, so that no resolution is far from a polished one.
+    /// From checkpoint to checkpoint, so that no resolution is far from a polished one, until shape suffers.
     [[nodiscard]] Status collapse_and_polish() {
         polish(kDenseRelaxations, 0, false);
+        double mean = mean_stretch();
         for (std::uint32_t faces = mesh_.live_faces(); has_collapses_above(input_.faces_min);) {
             const std::uint32_t goal = next_checkpoint(faces);
             if (Status done = collapse_in_phases(goal); !done) return done;
             // Polishing makes some more collapses valid, but ever fewer.
             const bool stuck = has_collapses_above(goal) && mesh_.live_faces() > kStuckShare * faces;
-            const bool final = goal == input_.faces || (stuck && mesh_.live_faces() > input_.faces);
-            polish(final ? kFinalRelaxations : kCheckpointRelaxations, final ? kFinalLifts : 0, final);
+            const bool asked = goal == input_.faces || (stuck && mesh_.live_faces() > input_.faces);
+            polish(asked ? kFinalRelaxations : kCheckpointRelaxations, asked ? kFinalLifts : 0, asked);
             if (context_.cancelled()) return ExecutionContext::cancelled_error();
             if (stuck) break;
+            const double before = std::exchange(mean, mean_stretch());
+            if (would_fall_below_floor(before, mean)) {
+                if (mesh_.live_faces() > input_.faces) polish(kFinalRelaxations, kFinalLifts, true);
+                break;
+            }
             faces = mesh_.live_faces();
         }
         return Done{};
+    }
+
+    /// Whether the next checkpoint is to be expected under the floor, going by the mean stretch at the last two.
+    [[nodiscard]] bool would_fall_below_floor(double before, double now) const {
+        return mesh_.live_faces() <= input_.floor_from && now < before && 2 * now - before < input_.mean_floor;
+    }
+
+    /// The strict mode: flips only, only before the first collapse, and only where a bound is broken that collapses hardly mend.
+    [[nodiscard]] Status mend_and_collapse() {
+        if (bounds_need_mending()) polisher_.mend(kFinalMends, false, context_);
+        stretch_sum_ = stretch_sum();
+        return collapse_in_phases(input_.faces_min);
+    }
+
+    [[nodiscard]] double stretch_sum() const {
+        double sum = 0;
+        for (std::uint32_t face = 0; 3 * face < mesh_.half_edge_count(); ++face) sum += visible_stretch(face);
+        return sum;
+    }
+
+    [[nodiscard]] double visible_stretch(std::uint32_t face) const {
+        return mesh_.visible(face) ? state_.faces[face].stretch : 0;
+    }
+
+    [[nodiscard]] double mean_stretch() const { return stretch_sum() / mesh_.live_faces(); }
+
+    [[nodiscard]] bool is_below_floor() const {
+        return mesh_.live_faces() <= input_.floor_from && stretch_sum_ < input_.mean_floor * mesh_.live_faces();
     }
 
     /// A fifth of the faces fewer, and the resolution asked for in any case.
@@ -178,7 +211,7 @@ private:
         std::uint32_t collapses = 0;
         while (has_collapses_above(faces)) {
             const HalfEdge edge = queue_.top();
-            if (edge == kNone) break;
+            if (edge == kNone || (!Policy::kExtended && is_below_floor())) break;
             collapse(edge);
             if (++collapses % kLookEvery == 0 && context_.cancelled()) return ExecutionContext::cancelled_error();
             if (collapses % kReportEvery == 0) report_simplified();
@@ -245,6 +278,7 @@ private:
         }
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
         log_.record(mesh_, star);
+        if constexpr (!Policy::kExtended) stretch_sum_ -= visible_stretch(face_of(star.ij)) + visible_stretch(face_of(star.ji));
         const std::uint32_t kept = mesh_.origin(star.ij), removed = mesh_.origin(star.ji);
         state_.quadrics[kept] += state_.quadrics[removed];
         state_.border.join(kept, removed);
@@ -283,6 +317,7 @@ private:
         for (std::size_t t = 0; t < fan.ring_size(); ++t) ring_.push_back(fan.vertex(t));
         for (std::size_t t = 0; t < fan.size(); ++t) {
             const std::uint32_t after = fan.vertex(t + 1 < fan.ring_size() ? t + 1 : 0);
+            stretch_sum_ += fan.stretch(t) - state_.faces[fan.face(t)].stretch;
             state_.faces[fan.face(t)] = {fan.normal(t), fan.stretch(t),
                                          state_.sizes.relative(fan.face_size(t), kept, fan.vertex(t), after)};
         }
@@ -334,6 +369,7 @@ private:
     std::vector<HalfEdge> open_;  // edges to evaluate again
     std::uint32_t visit_ = 0;
     std::uint32_t faces_start_ = 0;
+    double stretch_sum_ = 0;  // of visible faces, kept up by the strict mode
     bool evaluated_ = false;  // all edges, once
     EdgeEvaluator<Policy> evaluator_;
     FanReplacement replacement_;

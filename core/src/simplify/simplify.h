@@ -31,6 +31,8 @@ struct SimplifyInput {
     double usual_size = 0;                        ///< wanted where more is allowed
     bool sizes_bind = false;                      ///< no longer edges than `sizes` allow
     double tolerance = 0;                         ///< length; tau_TL is its square
+    double mean_floor = 0;                        ///< of stretch: ends where the mean gets less ...
+    std::uint32_t floor_from = 0;                 ///< ... with no more than so many faces
     std::uint32_t faces_min = 4;                  ///< stop here at the latest; numbers of faces are of visible ones
     std::uint32_t faces = 4;                      ///< the resolution that is asked for: the extended mode polishes it longest
 };

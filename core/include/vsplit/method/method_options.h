@@ -44,6 +44,11 @@ struct ImproveOptions {
                                             ///< docs/method.md for what sizes follow where `faces` is not given
     /// Every resolution has exactly the source's open boundaries, vertices and edges; no effect on a closed mesh. Default false
     std::optional<bool> freeze_boundary{};
+    /// 0..1: no collapse leaves a face of less stretch where none was. Default EXTENDED 0.4, STRICT 0 (the paper has no floor)
+    std::optional<double> min_stretch{};
+    /// 0..1: simplification ends where the mean stretch gets less: there is the coarsest resolution, but `faces` come first where
+    /// they are given. Default EXTENDED 0.8, or 0 where faces_min is given; STRICT 0
+    std::optional<double> min_mean_stretch{};
 };
 
 /// What `control` may be asked for. Lengths in model units.
