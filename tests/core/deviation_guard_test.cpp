@@ -132,7 +132,7 @@ TEST(DeviationGuardTest, SamplesOfBothSurfacesStayWithinTheLimit) {
         for (const double share : {3e-3, 1e-2}) {
             SCOPED_TRACE(name + ", limit " + std::to_string(share) + " of the diagonal");
             const double limit = share * bounding_box(source).diagonal();
-            GuardedEditor editor(source, 0.1, limit, 7);
+            GuardedEditor editor(source, 0.01, limit, 7);
             editor.edit(60, 12000);
             EXPECT_LE(from_mesh(editor.p.now(), source), limit * (1 + 1e-9));
             EXPECT_LE(from_source(source, editor.p.now()), limit * (1 + 1e-9));

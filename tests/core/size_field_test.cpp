@@ -333,18 +333,6 @@ TEST(SizingOptionsTest, RefusesContradictions) {
     EXPECT_NE(status.error().message.find("at most max_size, which is 4"), std::string::npos) << status.error().message;
 }
 
-TEST(SizingOptionsTest, WaitsForTheExtendedMode) {
-    ImproveOptions options;
-    options.sizing.emplace().chord_error = 1;
-    for (const std::optional<Mode> mode : {std::optional<Mode>(), std::optional(Mode::kStrict)}) {
-        options.mode = mode;
-        const Status status = check_options(options);
-        ASSERT_FALSE(status);
-        EXPECT_EQ(status.error().cause, Cause::kUnsupported);
-        EXPECT_EQ(status.error().field, "sizing");
-    }
-}
-
 TEST(SizingOptionsTest, TheFieldMustFitTheSource) {
     ImproveOptions options;
     options.sizing.emplace().field = {1, 2, 3};

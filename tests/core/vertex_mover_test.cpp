@@ -133,7 +133,7 @@ TEST(VertexMoverTest, TheErrorStaysWithinASmallTolerance) {
         return move_all(p, p.limits(), relax, [](const Star&, const Star&, bool) {});
     };
     const int loose = count(1e-2);
-    const int tight = count(1e-5);
+    const int tight = count(5e-5);
     EXPECT_GT(tight, 5);
     EXPECT_LT(tight, loose) << "else the tolerance did nothing";
     EXPECT_EQ(count(1e-9), 0);

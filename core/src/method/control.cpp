@@ -61,7 +61,7 @@ ControlOptions default_options(const TriangleMesh& mesh, const ControlOptions& o
     ControlOptions used = options;
     used.subdivisions = options.subdivisions.value_or(kDefaultSubdivisions);
     used.mode = options.mode.value_or(Mode::kExtended);
-    fill_tolerances(mesh, used);
+    fill_tolerances(bounding_box(mesh).diagonal(), used);
     used.min_stretch = options.min_stretch.value_or(kStretchFloor);
     used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);

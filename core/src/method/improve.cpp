@@ -29,31 +29,34 @@ constexpr DefaultSizes kExtendedSizes{0.015, 1};
 /// than polishing gains.
 constexpr double kMeanFloor = 0.8;
 
-/// Default edges are no longer than so many times what they stand for.
-constexpr double kSizeOverThickness = 2;
-
 constexpr double kSizeGrowth = 1.25;
-constexpr std::uint64_t kDefaultFaceBudget = 1'000'000;
+/// Faces after subdivision that an interactive user waits for. Needles that are cut stay needles until they are millions.
+constexpr std::uint32_t kFaceBudget = 1'000'000;
+constexpr std::uint32_t kNeedleBudget = 250'000;
+constexpr double kNeedles = 1e4;  // slenderness
 /// Strict mode: where nothing more can be collapsed within the tolerance shape has suffered; with twice the faces it is near its
 /// best.
 constexpr std::uint32_t kFacesOverCoarsest = 2;
+
+std::uint32_t face_budget(const TriangleMesh& mesh, std::uint32_t host_limit) {
+    return std::min(host_limit, slenderness(mesh) > kNeedles ? std::max(kNeedleBudget, mesh.face_count()) : kFaceBudget);
+}
 
 double edge_of_faces(const TriangleMesh& mesh, std::uint32_t faces) {
     return std::sqrt(surface_area(mesh) / (kEquilateralArea * faces));
 }
 
 /// `size`, or the next larger one that keeps to what an interactive user waits for.
-double affordable_size(const TriangleMesh& mesh, double size, double diagonal, std::uint64_t host_limit) {
-    const std::uint64_t face_limit = std::min(host_limit, kDefaultFaceBudget);
+double affordable_size(const TriangleMesh& mesh, double size, double diagonal, std::uint32_t host_limit) {
+    const std::uint32_t face_limit = face_budget(mesh, host_limit);
     while (size < diagonal && predict_subdivision(mesh, size, face_limit) > face_limit) size *= kSizeGrowth;
     return size;
 }
 
 double default_subdivision_size(const TriangleMesh& mesh, const ImproveOptions& options, double diagonal,
-                                std::uint64_t host_limit) {
+                                std::uint32_t host_limit) {
     if (options.mode == Mode::kStrict) return affordable_size(mesh, kStrictSizes.size_share * diagonal, diagonal, host_limit);
-    const double size = options.faces ? edge_of_faces(mesh, *options.faces)
-                                      : std::min(kExtendedSizes.size_share * diagonal, kSizeOverThickness * mean_thickness(mesh));
+    const double size = options.faces ? edge_of_faces(mesh, *options.faces) : kExtendedSizes.size_share * diagonal;
     return size > 0 ? affordable_size(mesh, size, diagonal, host_limit) : diagonal;
 }
 
@@ -82,8 +85,7 @@ Expected<std::optional<SizePlan>> plan_for(const TriangleMesh& mesh, const std::
     };
     if (used.sizing) return given(plan_sizes(mesh, *used.sizing, creases, *used.subdivision_size));
     if (used.mode == Mode::kStrict || asked.faces || asked.subdivision_size) return std::optional<SizePlan>();
-    const auto budget = static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.max_faces, kDefaultFaceBudget));
-    return given(plan_by_curvature(mesh, creases, *used.tolerance, *used.subdivision_size, budget));
+    return given(plan_by_curvature(mesh, creases, *used.tolerance, *used.subdivision_size, face_budget(mesh, limits.max_faces)));
 }
 
 /// To the sizes that are planned where they are smaller, and to `size`.
@@ -102,7 +104,7 @@ ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& o
     ImproveOptions used = options;
     used.mode = options.mode.value_or(Mode::kExtended);
     if (!used.subdivision_size) used.subdivision_size = default_subdivision_size(mesh, used, diagonal, limits.max_faces);
-    fill_tolerances(mesh, used);
+    fill_tolerances(diagonal, used);
     used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);

@@ -9,7 +9,6 @@
 #include "features/boundary_corners.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/cap_boundaries.h"
-#include "mesh/half_edges.h"
 #include "mesh/spatial_order.h"
 #include "quality/deviation_of_index.h"
 #include "vsplit/features/face_normals.h"
@@ -84,23 +83,14 @@ constexpr double kCornerReach = 4;
 
 }  // namespace
 
-namespace {
-
-bool is_closed(const TriangleMesh& mesh) {
-    const std::vector<HalfEdge> twins = half_edge_twins(mesh);
-    return std::find(twins.begin(), twins.end(), kNone) == twins.end();
-}
-
-}  // namespace
-
-double mean_thickness(const TriangleMesh& mesh) {
-    const double volume = std::abs(enclosed_volume(mesh));
-    return volume > 0 && is_closed(mesh) ? 3 * volume / surface_area(mesh) : std::numeric_limits<double>::infinity();
-}
-
-double default_tolerance(const TriangleMesh& mesh) {
-    constexpr double kThicknessShare = 0.2;
-    return std::min(kDefaultToleranceShare * bounding_box(mesh).diagonal(), kThicknessShare * mean_thickness(mesh));
+double slenderness(const TriangleMesh& mesh) {
+    double squares = 0;
+    for (const Triangle& t : mesh.faces) {
+        const double size = face_size(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+        squares += size * size;
+    }
+    const double area = surface_area(mesh);
+    return area > 0 ? squares / area : std::numeric_limits<double>::infinity();
 }
 
 SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options) {
@@ -141,13 +131,8 @@ namespace {
 
 /// Long slivers lie in the boxes of all their neighbours, and an index over them is slow; that over their pieces is not.
 bool has_needles(const TriangleMesh& mesh) {
-    constexpr double kMuch = 100;  // 2.3 where all are equilateral
-    double squares = 0;
-    for (const Triangle& t : mesh.faces) {
-        const double size = face_size(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-        squares += size * size;
-    }
-    return squares > kMuch * surface_area(mesh);
+    constexpr double kMuch = 100;
+    return slenderness(mesh) > kMuch;
 }
 
 /// The same surface in smaller faces.

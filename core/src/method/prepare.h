@@ -39,19 +39,17 @@ struct PrepareOptions {
 /// source's faces: subdivision does not change the surface, but slivers cut small no longer show where they look. O(faces).
 [[nodiscard]] SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options);
 
-/// How thick a closed part is in the mean: three times its volume over its surface, which is the radius of a sphere. Infinity for
-/// what encloses nothing. O(faces).
-[[nodiscard]] double mean_thickness(const TriangleMesh& mesh);
-
-/// Tolerance where none is asked for: a share of the diagonal, but thin parts stay what they are. O(faces).
-[[nodiscard]] double default_tolerance(const TriangleMesh& mesh);
+/// Squares of the longest edges over the area of all faces: 2.3 where all are equilateral, far more where there are needles.
+/// Infinity for a mesh without area. O(faces).
+[[nodiscard]] double slenderness(const TriangleMesh& mesh);
 
 /// Fills in `tolerance` and, in the extended mode, `max_deviation`: either follows from the other where that is given.
 template <class Options>
-void fill_tolerances(const TriangleMesh& mesh, Options& options) {
+void fill_tolerances(double diagonal, Options& options) {
     constexpr double kDeviationOverTolerance = 2;
     if (!options.tolerance) {
-        options.tolerance = options.max_deviation ? *options.max_deviation / kDeviationOverTolerance : default_tolerance(mesh);
+        options.tolerance =
+            options.max_deviation ? *options.max_deviation / kDeviationOverTolerance : kDefaultToleranceShare * diagonal;
     }
     if (options.mode == Mode::kExtended && !options.max_deviation) {
         options.max_deviation = kDeviationOverTolerance * *options.tolerance;

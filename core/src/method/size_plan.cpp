@@ -11,7 +11,7 @@ namespace vsplit {
 namespace {
 
 constexpr double kChordShare = 2;    // of the tolerance: what max_deviation is by default
-constexpr double kLeastShare = 0.2;  // of the usual size
+constexpr double kLeastShare = 0.3;  // of the usual size
 constexpr double kGrowth = 1.25;
 
 double mean_of(const std::vector<double>& sizes, const Triangle& t) { return (sizes[t[0]] + sizes[t[1]] + sizes[t[2]]) / 3; }

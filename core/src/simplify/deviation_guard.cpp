@@ -42,19 +42,24 @@ bool DeviationGuard::stays_in_plane(const NewFace& f) const {
 }
 
 bool DeviationGuard::inside_reaches_source(const NewFace& f) const {
-    constexpr double kLong = 32;  // limits
-    constexpr double kMostSteps = 16;
     const Vec3 side = (f.b + f.c) / 2;
-    const double steps =
-        std::clamp(std::ceil(std::max((f.apex - f.b).norm(), (f.apex - side).norm()) / (kLong * limit_)), 1.0, kMostSteps);
-    if (steps == 1 && stays_in_plane(f)) return true;
+    const double steps = steps_along(std::max((f.apex - f.b).norm(), (f.apex - side).norm()));
+    if (steps == 0 && stays_in_plane(f)) return true;
+    if (!source_.within((f.apex + f.b) / 2, limit_) || !source_.within((f.apex + f.b + f.c) / 3, limit_)) return false;
     for (double n = 0.5; n < steps; ++n) {
         const double share = n / steps;
-        // The middle of a face is a third up from its side.
-        if (!source_.within(f.apex + share * (f.b - f.apex), limit_)) return false;
-        if (!source_.within(side + 2 * share / 3 * (f.apex - side), limit_)) return false;
+        if (!source_.within(f.apex + share * (f.b - f.apex), limit_) || !source_.within(side + share * (f.apex - side), limit_)) {
+            return false;
+        }
     }
     return true;
+}
+
+/// Samples along so long a line beside those that every face has.
+double DeviationGuard::steps_along(double length) const {
+    constexpr double kLong = 32;  // limits
+    constexpr double kMostSteps = 32;
+    return length > kLong * limit_ ? std::min(std::ceil(length / (kLong * limit_)), kMostSteps) : 0;
 }
 
 bool DeviationGuard::reaches_source(std::span<const NewFace> faces) const {

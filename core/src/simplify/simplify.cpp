@@ -161,9 +161,11 @@ private:
         return Done{};
     }
 
-    /// Whether the next checkpoint is to be expected under the floor, going by the mean stretch at the last two.
+    /// Whether the next checkpoint is to be expected under the floor, going by the mean stretch at the last two. What never came
+    /// up to the floor does not fall below it.
     [[nodiscard]] bool would_fall_below_floor(double before, double now) const {
-        return mesh_.live_faces() <= input_.floor_from && now < before && 2 * now - before < input_.mean_floor;
+        const double floor = input_.mean_floor;
+        return mesh_.live_faces() <= input_.floor_from && before >= floor && 2 * now - before < floor;
     }
 
     /// The strict mode: flips only, only before the first collapse, and only where a bound is broken that collapses hardly mend.
