@@ -24,8 +24,10 @@ constexpr std::uint32_t kReportEvery = 1024;
 
 // How the extended mode polishes: the dense mesh, checkpoints after each fifth of the faces, and the resolution asked for.
 constexpr double kCheckpointShare = 0.8;
-constexpr double kStuckShare = 0.98;  // of the faces at the last checkpoint: no use going on
-constexpr double kBestShare = 0.95;   // of the best mean stretch so far: no floor asks for more
+constexpr double kFarCheckpointShare = 0.6;  // while far from what is asked for: most moves are made there
+constexpr std::uint32_t kFar = 2;            // times the faces asked for
+constexpr double kStuckShare = 0.98;         // of the faces at the last checkpoint: no use going on
+constexpr double kBestShare = 0.95;          // of the best mean stretch so far: no floor asks for more
 constexpr int kDenseRelaxations = 3;
 constexpr int kCheckpointRelaxations = 2;
 constexpr int kFinalRelaxations = 10;
@@ -191,9 +193,11 @@ private:
         return mesh_.live_faces() <= input_.floor_from && stretch_sum_ < input_.mean_floor * mesh_.live_faces();
     }
 
-    /// A fifth of the faces fewer, and the resolution asked for in any case.
+    /// A fifth of the faces fewer, or more while far from what is asked for; and the resolution asked for in any case.
     [[nodiscard]] std::uint32_t next_checkpoint(std::uint32_t faces) const {
-        const auto goal = static_cast<std::uint32_t>(kCheckpointShare * faces);
+        const bool may_end_here = input_.mean_floor > 0 && faces <= input_.floor_from;
+        const double share = faces / kFar > input_.faces && !may_end_here ? kFarCheckpointShare : kCheckpointShare;
+        const auto goal = static_cast<std::uint32_t>(share * faces);
         const bool passes_asked = has_collapses_above(input_.faces) && goal < 1.1 * input_.faces;
         return std::max(passes_asked ? input_.faces : goal, input_.faces_min);
     }
