@@ -349,7 +349,7 @@ TEST_F(CommandLineTest, SizesAreReadAndRefusedByName) {
     refused({"--size-sphere", "0,0,0,1,-2"},
             "sizing.spheres[0].size is -2; accepted is a positive finite length (--size-sphere)");
     refused({"--gradation", "0"}, "(--gradation)");
-    refused({"--chord-error", "0.1"}, "UNSUPPORTED: sizing comes with a later version");
+    refused({"--min-mean-stretch", "1.5"}, "min_mean_stretch is 1.5; accepted is 0 to 1");
 }
 
 TEST_F(CommandLineTest, FeatureDetectionIsUsedAndReported) {

@@ -210,10 +210,7 @@ TEST_F(BadRequestTest, ControlNamesTheOptionAtFault) {
     expect_unharmed();
 }
 
-TEST_F(BadRequestTest, WhatALaterVersionOffersIsUnsupported) {
-    v1::ImproveRequest sized = small_improve(session_);
-    sized.mutable_options()->mutable_sizing()->set_chord_error(0.1);
-    EXPECT_TRUE(failed_with(improve(server_.stub(), sized).status, Cause::kUnsupported, "sizing"));
+TEST_F(BadRequestTest, WhatTheStrictModeLacksIsUnsupported) {
     v1::ImproveRequest bounded = small_improve(session_);
     bounded.mutable_options()->set_mode(v1::STRICT);
     bounded.mutable_options()->set_max_deviation(0.1);

@@ -11,7 +11,7 @@
 #include "method/flip_slivers.h"
 #include "method/mend_hubs.h"
 #include "method/nearby_faces.h"
-#include "method/report_creases.h"
+#include "method/run_policy.h"
 #include "method/subdivision.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/mrr/progressive_mesh.h"
@@ -115,7 +115,6 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
         run_policy(mesh, std::move(*subdivided), run, policy_of(used, bounding_box(mesh).diagonal()), faces_of, context);
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
-    if (Status told = report_creases(result, mesh, run, context); !told) return told.error();
     result.options = used;
     const TriangleMesh shown = mesh_at(result.mrr, result.mrr.level_for(result.faces));
     result.violations = find_violations(shown, used);

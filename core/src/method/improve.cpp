@@ -8,7 +8,7 @@
 
 #include "base/thread_limit.h"
 #include "method/flip_slivers.h"
-#include "method/report_creases.h"
+#include "method/run_policy.h"
 #include "method/subdivision.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/quality/stretch.h"
@@ -160,7 +160,6 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
     if (options.sizing) report_sizes(result, coarse, **sizes);
-    if (Status told = report_creases(result, mesh, run, context); !told) return told.error();
     report_deviation(result, options.max_deviation);
     if (!options.faces) used.faces = result.faces;
     result.options = used;

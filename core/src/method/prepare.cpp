@@ -219,6 +219,9 @@ void report_over(MethodResult& result, std::optional<double> measured, std::opti
 void report_deviation(MethodResult& result, std::optional<double> limit) {
     report_over(result, result.quality.deviation_max, limit,
                 "no resolution keeps to it; a larger length is met, or a smaller subdivision size meets this one");
+    report_over(
+        result, result.quality.crease_deviation_max, limit,
+        "some crease of the source is further from all of the result's; a larger length is met, or more faces meet this one");
 }
 
 void report_sizes(MethodResult& result, const TriangleMesh& source, const SizePlan& plan) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "method/run_policy.h"
+#include "method/method_run.h"
 
 namespace vsplit {
 

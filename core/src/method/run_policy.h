@@ -1,19 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
-#include "method/prepare.h"
+#include "method/method_run.h"
+#include "method/report_creases.h"
 
 namespace vsplit {
-
-/// What a run of either method needs beside its policy.
-struct MethodRun {
-    PrepareOptions prepare;
-    bool extended = false;
-    double max_deviation = 0;       ///< as used; extended mode only
-    std::optional<double> limit{};  ///< max_deviation where it was given: to be kept for certain
-};
 
 /// One attempt of `run_policy`, with samples kept to `share` of max_deviation.
 template <class Policy, class Faces>
@@ -30,7 +24,15 @@ template <class Policy, class Faces>
     const std::uint32_t faces = faces_of(*mrr);
     MethodResult result = describe_resolution(std::move(*mrr), faces);
     const Status measured = measure(result, reference, index.get(), run.limit, last, context);
-    return measured ? Expected<MethodResult>(std::move(result)) : measured.error();
+    if (!measured) return measured.error();
+    if (const Status told = report_creases(result, source, run, context); !told) return told.error();
+    return result;
+}
+
+/// Whether surface and creases are within the limit, where there is one.
+[[nodiscard]] inline bool keeps_limit(const MethodResult& result, const std::optional<double>& limit) {
+    return !limit ||
+           std::max(result.quality.deviation_max.value_or(0), result.quality.crease_deviation_max.value_or(0)) <= *limit;
 }
 
 /// Simplifies, shows the resolution that `faces_of(mrr)` names, and measures. What lies between samples may be further away than
@@ -44,7 +46,7 @@ template <class Policy, class Faces>
     double share = kFirstShare;
     for (; run.limit && share / 2 >= kLastShare; share /= 2) {
         Expected<MethodResult> result = attempt_policy(source, dense, run, share, false, policy, faces_of, context);
-        if (!result || result->quality.deviation_max.value_or(0) <= *run.limit) return result;
+        if (!result || keeps_limit(*result, run.limit)) return result;
     }
     return attempt_policy(source, std::move(dense), run, share, true, policy, faces_of, context);
 }
