@@ -29,9 +29,9 @@ CreaseGuard::CreaseGuard(const HalfEdgeMesh& mesh, const std::vector<SharpEdge>&
 }
 
 void CreaseGuard::add(HalfEdge edge, const Vec3& a, const Vec3& b) {
-    const double count = std::clamp(std::ceil((b - a).norm() / limit_), 1.0, kMostPointsAnEdge);
-    for (double n = 0.5; n < count; ++n) {
-        points_.push_back(a + (b - a) * (n / count));
+    const auto count = static_cast<int>(std::clamp(std::ceil((b - a).norm() / limit_), 1.0, kMostPointsAnEdge));
+    for (int n = 0; n < count; ++n) {
+        points_.push_back(a + (b - a) * ((n + 0.5) / count));
         next_.push_back(kNone);
         put({static_cast<std::uint32_t>(points_.size() - 1), edge});
     }

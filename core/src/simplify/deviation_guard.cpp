@@ -43,11 +43,11 @@ bool DeviationGuard::stays_in_plane(const NewFace& f) const {
 
 bool DeviationGuard::inside_reaches_source(const NewFace& f) const {
     const Vec3 side = (f.b + f.c) / 2;
-    const double steps = steps_along(std::max((f.apex - f.b).norm(), (f.apex - side).norm()));
+    const int steps = steps_along(std::max((f.apex - f.b).norm(), (f.apex - side).norm()));
     if (steps == 0 && stays_in_plane(f)) return true;
     if (!source_.within((f.apex + f.b) / 2, limit_) || !source_.within((f.apex + f.b + f.c) / 3, limit_)) return false;
-    for (double n = 0.5; n < steps; ++n) {
-        const double share = n / steps;
+    for (int n = 0; n < steps; ++n) {
+        const double share = (n + 0.5) / steps;
         if (!source_.within(f.apex + share * (f.b - f.apex), limit_) || !source_.within(side + share * (f.apex - side), limit_)) {
             return false;
         }
@@ -56,10 +56,10 @@ bool DeviationGuard::inside_reaches_source(const NewFace& f) const {
 }
 
 /// Samples along so long a line beside those that every face has.
-double DeviationGuard::steps_along(double length) const {
+int DeviationGuard::steps_along(double length) const {
     constexpr double kLong = 32;  // limits
     constexpr double kMostSteps = 32;
-    return length > kLong * limit_ ? std::min(std::ceil(length / (kLong * limit_)), kMostSteps) : 0;
+    return length > kLong * limit_ ? static_cast<int>(std::min(std::ceil(length / (kLong * limit_)), kMostSteps)) : 0;
 }
 
 bool DeviationGuard::reaches_source(std::span<const NewFace> faces) const {

@@ -55,7 +55,7 @@ private:
 
     [[nodiscard]] Nearest nearest_face(const Vec3& point, std::span<const NewFace> faces, std::size_t guess) const;
     [[nodiscard]] bool stays_in_plane(const NewFace& f) const;
-    [[nodiscard]] double steps_along(double length) const;
+    [[nodiscard]] int steps_along(double length) const;
     [[nodiscard]] bool inside_reaches_source(const NewFace& f) const;
     [[nodiscard]] bool reaches_source(std::span<const NewFace> faces) const;
     [[nodiscard]] bool reached_by_source(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces);
