@@ -144,7 +144,8 @@ TriangleMesh without_needles(const TriangleMesh& mesh) {
     double size = kShare * diagonal;
     while (size < diagonal && predict_subdivision(mesh, size, kMostFaces) > kMostFaces) size *= kGrowth;
     Expected<SubdividedMesh> fine = subdivide_to_size(mesh, size, std::max(kMostFaces, mesh.face_count()), {});
-    return fine ? std::move(fine->mesh) : mesh;
+    if (!fine) return mesh;
+    return std::move(fine->mesh);
 }
 
 }  // namespace
