@@ -13,8 +13,8 @@
 namespace vsplit {
 namespace {
 
-constexpr std::array kCauses{SliverCause::kNarrowStrip, SliverCause::kSharpCorner, SliverCause::kCloseCorners,
-                             SliverCause::kDeviation, SliverCause::kUnexplained};
+constexpr std::array kCauses{SliverCause::kNarrowStrip, SliverCause::kSharpCorner,   SliverCause::kCloseCorners,
+                             SliverCause::kDeviation,   SliverCause::kHeldByCreases, SliverCause::kUnexplained};
 
 double stretch_of_face(const TriangleMesh& mesh, std::uint32_t f) {
     const Triangle& t = mesh.faces[f];
@@ -44,6 +44,19 @@ SliverFace describe(const TriangleMesh& mesh, std::uint32_t f, double edge) {
     return face;
 }
 
+/// Whether a corner of the face lies on a crease.
+bool touches_crease(const CreaseMarks& marks, std::uint32_t f) {
+    for (const HalfEdge first : {3 * f, 3 * f + 1, 3 * f + 2}) {
+        HalfEdge spoke = first;
+        do {
+            if (marks.marked(spoke)) return true;
+            spoke = marks.twin(prev(spoke));
+        } while (spoke != kNone && spoke != first);
+        if (spoke == kNone) return true;  // a boundary
+    }
+    return false;
+}
+
 /// A cause, and by how much.
 struct Finding {
     SliverCause cause = SliverCause::kUnexplained;
@@ -56,8 +69,10 @@ Finding find_cause(const TriangleMesh& mesh, const CreaseMarks& marks, const Fac
     if (const auto angle = features.sharp_corner(face)) return {SliverCause::kSharpCorner, *angle};
     if (const auto gap = features.narrow_strip(face)) return {SliverCause::kNarrowStrip, *gap};
     if (const auto distance = features.close_corners(face)) return {SliverCause::kCloseCorners, *distance};
-    const std::optional<double> moved = max_deviation > 0 ? least_mend(mesh, marks, normals, face) : std::nullopt;
+    if (!(max_deviation > 0)) return {SliverCause::kUnexplained, face.stretch};
+    const std::optional<double> moved = least_mend(mesh, marks, normals, face);
     if (moved && *moved > max_deviation) return {SliverCause::kDeviation, *moved};
+    if (!moved && touches_crease(marks, face_of(face.longest))) return {SliverCause::kHeldByCreases, face.stretch};
     return {SliverCause::kUnexplained, face.stretch};
 }
 
@@ -79,6 +94,9 @@ std::string message_of(const Slivers& s, double max_deviation) {
         case SliverCause::kDeviation:
             return faces + (one ? "is" : "are") + " held by max_deviation, " + number_text(max_deviation) +
                    ": mending moves the surface by " + values;
+        case SliverCause::kHeldByCreases:
+            return faces + "of stretch " + values + (one ? " has" : " have") +
+                   " corners on creases, and no flip or collapse betters " + (one ? "it" : "them") + " that keeps those";
         case SliverCause::kUnexplained:
             return faces + "of stretch " + values + (one ? " is" : " are") +
                    " forced by no crease and no bound that was looked at";
@@ -105,6 +123,8 @@ std::string_view sliver_cause_name(SliverCause cause) {
             return "CLOSE_CORNERS";
         case SliverCause::kDeviation:
             return "DEVIATION";
+        case SliverCause::kHeldByCreases:
+            return "HELD_BY_CREASES";
         case SliverCause::kUnexplained:
             return "UNEXPLAINED";
     }

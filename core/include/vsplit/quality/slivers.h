@@ -12,11 +12,12 @@ namespace vsplit {
 
 /// What forces a face to be a sliver.
 enum class SliverCause {
-    kNarrowStrip,   ///< two creases closer to each other than the floor allows for edges this long
-    kSharpCorner,   ///< two creases that meet at an angle below what the floor needs
-    kCloseCorners,  ///< two corners of creases (ends, meetings, turns over 40 degrees) as close
-    kDeviation,     ///< each flip or collapse that would mend it moves the surface by more than max_deviation
-    kUnexplained,   ///< nothing of these
+    kNarrowStrip,    ///< two creases closer to each other than the floor allows for edges this long
+    kSharpCorner,    ///< two creases that meet at an angle below what the floor needs
+    kCloseCorners,   ///< two corners of creases (ends, meetings, turns over 40 degrees) as close
+    kDeviation,      ///< each flip or collapse that would mend it moves the surface by more than max_deviation
+    kHeldByCreases,  ///< it has a corner on a crease, and no flip or collapse betters it that keeps creases
+    kUnexplained,    ///< nothing of these
 };
 
 /// e.g. "NARROW_STRIP".
@@ -28,7 +29,8 @@ struct Slivers {
 
     SliverCause cause = SliverCause::kUnexplained;
     std::uint32_t count = 0;
-    double least = 0;  ///< distance of the creases or corners; angle in degrees; what a mend would move; UNEXPLAINED: the stretch
+    double least = 0;  ///< distance of the creases or corners; angle in degrees; what a mend would move; HELD_BY_CREASES,
+                       ///< UNEXPLAINED: the stretch
     double most = 0;   ///< the same, of the face where it is most
     std::vector<std::uint32_t> elements;  ///< the first kExamples faces
     std::string message;                  ///< one sentence
