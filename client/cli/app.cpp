@@ -37,11 +37,13 @@ void print(const Arguments& arguments, const Outcome& outcome) {
     }
 }
 
+bool runs_method(Verb verb) { return verb == Verb::kImprove || verb == Verb::kControl; }
+
 /// What the exit status does not say but a person should know.
 void print_notes(const Arguments& arguments, const v1::Representation& made) {
     const std::optional<std::uint32_t> asked = asked_faces(arguments);
     if (asked) std::cerr << nearest_note(*asked, made);
-    if (arguments.verb == Verb::kControl) std::cerr << violation_messages(made);
+    if (runs_method(arguments.verb)) std::cerr << violation_messages(made);
 }
 
 int finish(const Arguments& arguments, const Outcome& outcome) {
@@ -53,7 +55,7 @@ int finish(const Arguments& arguments, const Outcome& outcome) {
     const auto* made = std::get_if<v1::Representation>(&outcome.document);
     if (made == nullptr) return kExitDone;
     print_notes(arguments, *made);
-    return arguments.verb == Verb::kControl && !made->bounds_satisfied() ? kExitBoundBroken : kExitDone;
+    return runs_method(arguments.verb) && !made->bounds_satisfied() ? kExitBoundBroken : kExitDone;
 }
 
 int fail(const Error& error) {

@@ -128,8 +128,7 @@ std::string option_lines(const v1::Representation& r) {
 }
 
 std::string bounds_line(const v1::Representation& r) {
-    if (r.method() != v1::CONTROL) return {};
-    if (r.bounds_satisfied()) return line("bounds", "all hold");
+    if (r.bounds_satisfied()) return r.method() == v1::CONTROL ? line("bounds", "all hold") : std::string();
     std::string broken;
     for (const v1::Violation& v : r.violations()) {
         broken += (broken.empty() ? "" : "; ") + v.bound() + " broken by " + broken_by(v) + ", worst " + figure(v.worst());

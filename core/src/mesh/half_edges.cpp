@@ -39,4 +39,15 @@ std::vector<HalfEdge> half_edge_twins(const TriangleMesh& mesh) {
     return twins;
 }
 
+std::vector<std::uint32_t> valences(const TriangleMesh& mesh, const EdgeIndex& edges) {
+    std::vector<std::uint32_t> valence(mesh.positions.size(), 0);
+    edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* /*last*/) {
+        ++valence[first->a()];
+        ++valence[first->b()];
+    });
+    return valence;
+}
+
+std::vector<std::uint32_t> valences(const TriangleMesh& mesh) { return valences(mesh, EdgeIndex(mesh)); }
+
 }  // namespace vsplit

@@ -56,4 +56,8 @@ private:
 /// exactly two faces that run along it in opposite directions. O(faces log faces).
 [[nodiscard]] std::vector<HalfEdge> half_edge_twins(const TriangleMesh& mesh);
 
+/// Edges at each vertex, each counted once: at a boundary one more than faces. O(faces).
+[[nodiscard]] std::vector<std::uint32_t> valences(const TriangleMesh& mesh, const EdgeIndex& edges);
+[[nodiscard]] std::vector<std::uint32_t> valences(const TriangleMesh& mesh);
+
 }  // namespace vsplit

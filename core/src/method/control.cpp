@@ -84,8 +84,9 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
     const ControlOptions used = default_options(mesh, options);
 
-    // What mends hubs knows no boundaries, and a size field belongs to the source's own faces.
-    const std::shared_ptr<const CreasedMesh> mended = report.closed && !used.sizing ? mend_hubs(mesh, used, context) : nullptr;
+    // What mends hubs knows no boundaries, and a field of sizes is of the source's own vertices.
+    const bool may_add_vertices = report.closed && (!used.sizing || used.sizing->field.empty());
+    const std::shared_ptr<const CreasedMesh> mended = may_add_vertices ? mend_hubs(mesh, used, context) : nullptr;
     const bool extended = used.mode == Mode::kExtended;
     const std::shared_ptr<const CreasedMesh> flipped = extended && !mended ? without_slivers(mesh, used, context) : mended;
     const TriangleMesh& coarse = flipped ? flipped->mesh : mesh;

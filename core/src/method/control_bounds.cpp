@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "mesh/half_edges.h"
 #include "vsplit/features/creases.h"
 #include "vsplit/method/control.h"
 
@@ -52,7 +53,7 @@ void count_faces(const TriangleMesh& mesh, const ControlOptions& options, std::v
         const Triangle& t = mesh.faces[f];
         const FaceFigures face(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
         if (bounds.lacks_stretch(face) > 0) stretch.add(f, face.stretch);
-        if (max_size.limited() && face.longest > max_size.limit()) max_size.add(f, face.longest);
+        if (max_size.limited() && face.longest > max_size.limit() * (1 + kRounding)) max_size.add(f, face.longest);
         if (bounds.lacks_min_angle(face) > 0) min_angle.add(f, least_angle(face));
         if (bounds.lacks_max_angle(face) > 0) max_angle.add(f, largest_angle(face));
         if (bounds.lacks_aspect(face) > 0) aspect.add(f, std::min(face.aspect(), std::numeric_limits<double>::max()));
@@ -62,10 +63,7 @@ void count_faces(const TriangleMesh& mesh, const ControlOptions& options, std::v
 }
 
 void count_vertices(const TriangleMesh& mesh, std::uint32_t limit, std::vector<Violation>& all) {
-    std::vector<std::uint32_t> valence(mesh.positions.size(), 0);
-    for (const Triangle& f : mesh.faces) {
-        for (const std::uint32_t v : f) ++valence[v];  // of a closed mesh: as many edges as faces
-    }
+    const std::vector<std::uint32_t> valence = valences(mesh);
     ViolationCounter counter("max_valence", limit, false);
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         if (valence[v] > limit) counter.add(v, valence[v]);

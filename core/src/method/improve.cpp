@@ -85,7 +85,9 @@ Expected<std::optional<SizePlan>> plan_for(const TriangleMesh& mesh, const std::
     };
     if (used.sizing) return given(plan_sizes(mesh, *used.sizing, creases, *used.subdivision_size));
     if (used.mode == Mode::kStrict || asked.faces || asked.subdivision_size) return std::optional<SizePlan>();
-    return given(plan_by_curvature(mesh, creases, *used.tolerance, *used.subdivision_size, face_budget(mesh, limits.max_faces)));
+    // A tolerance far below the default is about the facets of the source; their angles are no curvature.
+    const double tolerance = std::max(*used.tolerance, kDefaultToleranceShare * bounding_box(mesh).diagonal());
+    return given(plan_by_curvature(mesh, creases, tolerance, *used.subdivision_size, face_budget(mesh, limits.max_faces)));
 }
 
 /// To the sizes that are planned where they are smaller, and to `size`.
@@ -95,6 +97,20 @@ Expected<SubdividedMesh> subdivide(const TriangleMesh& mesh, const std::optional
     if (!sizes) return to_usual(mesh);
     Expected<SubdividedMesh> sized = to_sizes(mesh, *sizes, frozen, face_limit, context);
     return sized ? refined(*std::move(sized), to_usual) : sized;
+}
+
+/// A violation where the shown resolution has less mean stretch than was asked for.
+void report_floor(MethodResult& result, std::optional<double> floor) {
+    if (!floor || result.quality.stretch_mean >= *floor) return;
+    Violation violation;
+    violation.bound = "min_mean_stretch";
+    violation.limit = *floor;
+    violation.worst = result.quality.stretch_mean;
+    violation.count = result.faces;
+    violation.reason =
+        "no resolution with no more faces than asked for has it; more faces, a smaller subdivision size or a larger tolerance "
+        "may";
+    result.violations.push_back(std::move(violation));
 }
 
 }  // namespace
@@ -161,6 +177,7 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     MethodResult result = *std::move(tried);
     if (options.sizing) report_sizes(result, coarse, **sizes);
     report_deviation(result, options.max_deviation);
+    report_floor(result, options.min_mean_stretch);
     if (!options.faces) used.faces = result.faces;
     result.options = used;
     result.elapsed = std::chrono::steady_clock::now() - start;

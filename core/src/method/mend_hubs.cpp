@@ -168,10 +168,7 @@ private:
 };
 
 bool has_hubs(const TriangleMesh& mesh, std::uint32_t max_valence) {
-    std::vector<std::uint32_t> valence(mesh.positions.size(), 0);
-    for (const Triangle& f : mesh.faces) {
-        for (const std::uint32_t v : f) ++valence[v];
-    }
+    const std::vector<std::uint32_t> valence = valences(mesh);
     return std::any_of(valence.begin(), valence.end(), [&](std::uint32_t n) { return n > max_valence; });
 }
 

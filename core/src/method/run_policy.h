@@ -41,8 +41,8 @@ template <class Policy, class Faces>
 template <class Policy, class Faces>
 [[nodiscard]] Expected<MethodResult> run_policy(const TriangleMesh& source, SubdividedMesh dense, const MethodRun& run,
                                                 const Policy& policy, Faces faces_of, const ExecutionContext& context) {
-    constexpr double kFirstShare = 0.85;
-    constexpr double kLastShare = 0.2;
+    constexpr double kFirstShare = 0.75;
+    constexpr double kLastShare = 0.15;
     double share = kFirstShare;
     for (; run.limit && share / 2 >= kLastShare; share /= 2) {
         Expected<MethodResult> result = attempt_policy(source, dense, run, share, false, policy, faces_of, context);

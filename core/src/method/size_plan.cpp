@@ -78,7 +78,9 @@ std::optional<Violation> find_oversized(const TriangleMesh& result, const Triang
         if (violation.count++ < Violation::kMostElements) violation.elements.push_back(f);
     }
     if (violation.count == 0) return std::nullopt;
-    violation.reason = "vertices have moved since these sizes were looked up; a smaller size or more faces meet it";
+    violation.reason =
+        "worst is the longest edge over what its ends allow; a boundary that is frozen keeps its edges, and where sizes grow "
+        "fast a vertex that moves may be a little late: a smaller size, or a smaller gradation, meets it";
     return violation;
 }
 

@@ -14,13 +14,8 @@ std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::uint32_t face) {
     return {mesh.positions[f[0]], mesh.positions[f[1]], mesh.positions[f[2]]};
 }
 
-/// Counts undirected edges, which at a boundary are more than faces.
 std::uint32_t largest_valence(const TriangleMesh& mesh, const EdgeIndex& edges) {
-    std::vector<std::uint32_t> valence(mesh.positions.size(), 0);
-    edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* /*last*/) {
-        ++valence[first->a()];
-        ++valence[first->b()];
-    });
+    const std::vector<std::uint32_t> valence = valences(mesh, edges);
     return valence.empty() ? 0 : *std::max_element(valence.begin(), valence.end());
 }
 

@@ -28,6 +28,7 @@ constexpr double kFarCheckpointShare = 0.6;  // while far from what is asked for
 constexpr std::uint32_t kFar = 2;            // times the faces asked for
 constexpr double kStuckShare = 0.98;         // of the faces at the last checkpoint: no use going on
 constexpr double kBestShare = 0.95;          // of the best mean stretch so far: no floor asks for more
+constexpr double kBestShare = 0.97;          // of the best mean stretch so far: no floor asks for more
 constexpr int kDenseRelaxations = 3;
 constexpr int kCheckpointRelaxations = 2;
 constexpr int kFinalRelaxations = 10;
@@ -143,7 +144,7 @@ private:
     /// From checkpoint to checkpoint, so that no resolution is far from a polished one, until shape suffers.
     [[nodiscard]] Status collapse_and_polish() {
         polish(kDenseRelaxations, 0, false);
-        double mean = mean_stretch();
+        double mean = mean_stretch(), best = mean;
         for (std::uint32_t faces = mesh_.live_faces(); has_collapses_above(input_.faces_min);) {
             const std::uint32_t goal = next_checkpoint(faces);
             if (Status done = collapse_in_phases(goal); !done) return done;
@@ -154,7 +155,8 @@ private:
             if (context_.cancelled()) return ExecutionContext::cancelled_error();
             if (stuck) break;
             const double before = std::exchange(mean, mean_stretch());
-            if (would_fall_below_floor(before, mean)) {
+            best = std::max(best, mean);
+            if (would_fall_below(std::min(input_.mean_floor, kBestShare * best), before, mean)) {
                 if (mesh_.live_faces() > input_.faces) polish(kFinalRelaxations, kFinalLifts, true);
                 break;
             }
@@ -163,10 +165,9 @@ private:
         return Done{};
     }
 
-    /// Whether the next checkpoint is to be expected under the floor, going by the mean stretch at the last two. What never came
-    /// up to the floor does not fall below it.
-    [[nodiscard]] bool would_fall_below_floor(double before, double now) const {
-        const double floor = input_.mean_floor;
+    /// Whether the next checkpoint is to be expected under a floor, going by the mean stretch at the last two. What never came up
+    /// to it does not fall below it.
+    [[nodiscard]] bool would_fall_below(double floor, double before, double now) const {
         return mesh_.live_faces() <= input_.floor_from && before >= floor && 2 * now - before < floor;
     }
 
@@ -189,8 +190,11 @@ private:
 
     [[nodiscard]] double mean_stretch() const { return stretch_sum() / mesh_.live_faces(); }
 
-    [[nodiscard]] bool is_below_floor() const {
-        return mesh_.live_faces() <= input_.floor_from && stretch_sum_ < input_.mean_floor * mesh_.live_faces();
+    /// The strict mode's, after each collapse. What never came up to the floor does not fall below it.
+    [[nodiscard]] bool is_below_floor() {
+        const bool below = stretch_sum_ < input_.mean_floor * mesh_.live_faces();
+        reached_floor_ |= !below;
+        return below && reached_floor_ && mesh_.live_faces() <= input_.floor_from;
     }
 
     /// A fifth of the faces fewer, or more while far from what is asked for; and the resolution asked for in any case.
@@ -375,6 +379,7 @@ private:
     std::vector<HalfEdge> open_;  // edges to evaluate again
     std::uint32_t visit_ = 0;
     std::uint32_t faces_start_ = 0;
+    bool reached_floor_ = false;
     double stretch_sum_ = 0;  // of visible faces, kept up by the strict mode
     bool evaluated_ = false;  // all edges, once
     EdgeEvaluator<Policy> evaluator_;
