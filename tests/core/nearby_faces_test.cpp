@@ -27,7 +27,8 @@ bool holds(const MultiresMesh& mrr, std::uint32_t faces, const ControlOptions& o
 TEST(NearbyFacesTest, TakesWhatIsAskedForWhereItHoldsElseOneNearbyThatDoesElseWhatIsAskedFor) {
     const MultiresMesh mrr = resolutions();
     int moved = 0, stayed = 0, none = 0;
-    for (double limit = 0.1; limit < 0.7; limit += 0.02) {
+    for (int step = 5; step < 35; ++step) {
+        const double limit = 0.02 * step;
         for (const bool given : {false, true}) {
             for (const bool upper : {false, true}) {
                 ControlOptions options{.faces = 400};

@@ -27,7 +27,6 @@ constexpr double kCheckpointShare = 0.8;
 constexpr double kFarCheckpointShare = 0.6;  // while far from what is asked for: most moves are made there
 constexpr std::uint32_t kFar = 2;            // times the faces asked for
 constexpr double kStuckShare = 0.98;         // of the faces at the last checkpoint: no use going on
-constexpr double kBestShare = 0.95;          // of the best mean stretch so far: no floor asks for more
 constexpr double kBestShare = 0.97;          // of the best mean stretch so far: no floor asks for more
 constexpr int kDenseRelaxations = 3;
 constexpr int kCheckpointRelaxations = 2;
