@@ -159,7 +159,9 @@ void add_sizing(CLI::App& verb, Arguments& a, Options& o) {
             sizing_in(o.sizing).boxes.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]});
         },
         "No edge in this box is longer than SIZE; may be repeated");
-    add_size(verb, "--chord-error", "Edges short enough to lie this close to the curved surface; length > 0. Default: no bound",
+    add_size(verb, "--chord-error",
+             "Edges whose chord lies this close to a circle of the curvature; deviation is bounded by --max-deviation. > 0. "
+             "Default: none",
              [&o](double value) { sizing_in(o.sizing).chord_error = value; });
     add_size(verb, "--gradation", "Most that the size grows by per unit of length; more than 0, at most 1. Default 0.3",
              [&o](double value) { sizing_in(o.sizing).gradation = value; });
