@@ -66,7 +66,7 @@ TEST_P(ImproveRealMesh, WithDefaultsKeepsTopologyAndBettersShape) {
 std::string param_name(const testing::TestParamInfo<std::filesystem::path>& info) { return test::test_name(info.param); }
 
 INSTANTIATE_TEST_SUITE_P(Own, ImproveRealMesh, testing::ValuesIn(test::own_closed_meshes()), param_name);
-INSTANTIATE_TEST_SUITE_P(Shared, ImproveRealMesh, testing::ValuesIn(test::shared_closed_meshes()), param_name);
+INSTANTIATE_TEST_SUITE_P(Shared, ImproveRealMesh, testing::ValuesIn(test::shared_closed_meshes(false)), param_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(ImproveRealMesh);
 
 TEST(ImproveTest, ReachesThePapersQualityOnASliveredPart) {

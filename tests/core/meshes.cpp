@@ -317,14 +317,15 @@ std::vector<std::filesystem::path> own_closed_meshes() {
     return {data_file("crankshaft.stl"), data_file("bracket.stl"), data_file("combined.stl"), data_file("scan.ply")};
 }
 
-std::vector<std::filesystem::path> shared_closed_meshes() {
+std::vector<std::filesystem::path> shared_closed_meshes(bool with_needles) {
+    const std::string needles = "combined_generic_twin.obj";
     std::vector<std::filesystem::path> paths;
     for (const char* name : {"analog_fire_phone_case.stl", "cad_adis16480_ascii.stl", "cad_counter_assembly_84k.stl",
                              "cad_fanuc_lrmate200id_link3.stl", "cad_robotiq_ft300.stl", "cad_tray_bottom_panel_ascii.stl",
                              "cad_unitree_z1_link01.stl", "combined_generic_twin.obj", "combined_openscad_goodmouse_3k.stl",
                              "fe_sfepy_wheelset_surface.off", "scan_hammer_60k.obj", "scan_nefertiti_70k.obj"}) {
         std::filesystem::path path = std::filesystem::path(VSPLIT_SHARED_MESHES) / name;
-        if (std::filesystem::exists(path)) paths.push_back(std::move(path));
+        if (std::filesystem::exists(path) && (with_needles || name != needles)) paths.push_back(std::move(path));
     }
     return paths;
 }

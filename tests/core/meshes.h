@@ -77,7 +77,8 @@ struct NamedMesh {
 
 /// Closed manifold meshes of the real world: CAD, scans, FE surfaces. Empty where that collection is not on this machine (it is
 /// no part of the repository).
-[[nodiscard]] std::vector<std::filesystem::path> shared_closed_meshes();
+/// With needles: also one whose facets are millions of times as long as wide, on which the methods take minutes.
+[[nodiscard]] std::vector<std::filesystem::path> shared_closed_meshes(bool with_needles = true);
 
 /// The stem of a path, usable as a name of a parameterised test.
 [[nodiscard]] std::string test_name(const std::filesystem::path& path);
