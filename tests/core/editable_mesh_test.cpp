@@ -1,4 +1,4 @@
-#include "mesh/editable_mesh.h"
+#include "method/editable_mesh.h"
 
 #include <gtest/gtest.h>
 

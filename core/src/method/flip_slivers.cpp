@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesh/cap_boundaries.h"
-#include "mesh/editable_mesh.h"
+#include "method/editable_mesh.h"
 #include "simplify/flip_quad.h"
 #include "vsplit/features/face_normals.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/editable_mesh.h"
+#include "method/editable_mesh.h"
 #include "simplify/flip_quad.h"
 #include "vsplit/features/face_normals.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "method/size_plan.h"
-#include "subdivide/frozen_boundary.h"
+#include "sizing/frozen_boundary.h"
 #include "vsplit/subdivide/subdivide.h"
 
 namespace vsplit {

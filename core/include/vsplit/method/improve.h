@@ -9,8 +9,8 @@
 namespace vsplit {
 
 /// `options` with every field filled in for this mesh, as far as can be told before the work: in STRICT mode
-/// max_deviation stays empty (no bound), and `faces` is an estimate that improve() raises to twice the coarsest resolution where
-/// that is more. O(faces).
+/// max_deviation stays empty (no bound), and `faces` is an estimate that improve() replaces by what sizes ask for (EXTENDED), or
+/// raises to twice the coarsest resolution where that is more. O(faces).
 [[nodiscard]] ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits);
 
 /// Mesh quality improvement, [Date05] 4: subdivides until no edge is longer than sigma_SZ, then collapses edges in the order

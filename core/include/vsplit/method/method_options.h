@@ -31,10 +31,9 @@ struct ImproveOptions {
     /// > 0: no point of the result is further from the source, nor of the source from the result; EXTENDED only. Where it is
     /// given it is certain, at the price of more faces than asked for if need be. Default: twice the tolerance, kept at samples.
     std::optional<double> max_deviation{};
-    std::optional<double> feature_angle{};   ///< degrees, 0..180; default 40
-    std::optional<double> feature_weight{};  ///< w_e at a right angle; >= 0; default 10
-    std::optional<std::uint32_t>
-        faces{};  ///< resolution of the result; default: mean edge 1.5 subdivision_size, but at least twice the coarsest
+    std::optional<double> feature_angle{};     ///< degrees, 0..180; default 40
+    std::optional<double> feature_weight{};    ///< w_e at a right angle; >= 0; default 10
+    std::optional<std::uint32_t> faces{};      ///< resolution of the result; default: docs/method.md
     std::optional<std::uint32_t> faces_min{};  ///< simplify down to this many faces, or until no edge is valid; default 4
     std::optional<Mode> mode{};                ///< default EXTENDED
     std::optional<FeatureDetection> feature_detection{};  ///< how creases are found; default DIHEDRAL

@@ -1,4 +1,4 @@
-#include "mesh/editable_mesh.h"
+#include "method/editable_mesh.h"
 
 #include "mesh/turn_edge.h"
 

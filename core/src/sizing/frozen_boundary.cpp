@@ -1,4 +1,4 @@
-#include "subdivide/frozen_boundary.h"
+#include "sizing/frozen_boundary.h"
 
 #include <algorithm>
 #include <string>
