@@ -78,6 +78,26 @@ TriangleMesh random_triangles(std::uint32_t count, double reach, std::uint64_t s
     return mesh;
 }
 
+/// Cables askew in space: boxes along the axes of the coordinates hold nearly all of them.
+TEST(SurfaceIndexTest, NearestOfNeedlesAlongOneDirectionTakesFewLooks) {
+    test::Random random(7);
+    const Vec3 along = Vec3(1, 2, -0.5).normalized() * 50;
+    TriangleMesh mesh;
+    for (std::uint32_t f = 0; f < 2000; ++f) {
+        const Vec3 at = random_point(random, 10);
+        for (const Vec3& corner : {at, Vec3(at + along), Vec3(at + random_point(random, 0.01))}) mesh.positions.push_back(corner);
+        mesh.faces.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+    }
+    const SurfaceIndex index = surface_index(mesh);
+    std::uint64_t tests = 0;
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 p = random_point(random, 20);
+        expect_same_as_all(index, p);
+        tests += index.closest(p).tests;
+    }
+    EXPECT_LT(tests, 100 * 200U) << "of 2000 each";
+}
+
 TEST(ShapesTest, TriangleDistanceIsThatOfASearch) {
     test::Random random(1);
     for (int round = 0; round < 2000; ++round) {

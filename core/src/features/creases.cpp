@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "features/crease_marks.h"
+#include "features/crease_noise.h"
 #include "features/voted_edges.h"
 
 namespace vsplit {
@@ -100,7 +101,7 @@ Status check_features(const TriangleMesh& mesh, const std::vector<std::uint32_t>
 std::vector<SharpEdge> find_creases(const TriangleMesh& mesh, const FaceNormals& normals, const FeatureOptions& options) {
     CreaseMarks marks(mesh);
     if (options.detection == FeatureDetection::kDihedral) {
-        marks.mark(find_sharp_edges(mesh, normals, {options.angle, options.weight}));
+        marks.mark(without_noise(find_sharp_edges(mesh, normals, {options.angle, options.weight}), mesh, options.least_branch));
     } else {
         marks.mark(voted_edges(mesh, normals, options.angle, options.weight));
         for (HalfEdge h = 0; h < marks.half_edge_count(); ++h) {

@@ -29,10 +29,15 @@ constexpr DefaultSizes kExtendedSizes{0.015, 1};
 /// than polishing gains.
 constexpr double kMeanFloor = 0.8;
 
+/// Where creases lie so close that all faces of the default size have corners on them, the floor is never reached. Smaller by
+/// this much it may be; for less than kMissedShare of the floor it is worth another run.
+constexpr double kFinerSize = 0.4;
+constexpr double kMissedShare = 0.97;
+
 constexpr double kSizeGrowth = 1.25;
 /// Faces after subdivision that an interactive user waits for. Needles that are cut stay needles until they are millions.
 constexpr std::uint32_t kFaceBudget = 1'000'000;
-constexpr std::uint32_t kNeedleBudget = 250'000;
+constexpr std::uint32_t kNeedleBudget = 50'000;
 constexpr double kNeedles = 1e4;  // slenderness
 /// Strict mode: where nothing more can be collapsed within the tolerance shape has suffered; with twice the faces it is near its
 /// best.
@@ -53,11 +58,12 @@ double affordable_size(const TriangleMesh& mesh, double size, double diagonal, s
     return size;
 }
 
+/// `fineness`: of what it would be else.
 double default_subdivision_size(const TriangleMesh& mesh, const ImproveOptions& options, double diagonal,
-                                std::uint32_t host_limit) {
+                                std::uint32_t host_limit, double fineness) {
     if (options.mode == Mode::kStrict) return affordable_size(mesh, kStrictSizes.size_share * diagonal, diagonal, host_limit);
     const double size = options.faces ? edge_of_faces(mesh, *options.faces) : kExtendedSizes.size_share * diagonal;
-    return size > 0 ? affordable_size(mesh, size, diagonal, host_limit) : diagonal;
+    return size > 0 ? affordable_size(mesh, fineness * size, diagonal, host_limit) : diagonal;
 }
 
 std::uint32_t face_count(double faces) { return static_cast<std::uint32_t>(std::clamp(faces, 4.0, 4e9)); }
@@ -113,13 +119,13 @@ void report_floor(MethodResult& result, std::optional<double> floor) {
     result.violations.push_back(std::move(violation));
 }
 
-}  // namespace
-
-ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits) {
+ImproveOptions options_as_used(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
+                               double fineness) {
     const double diagonal = bounding_box(mesh).diagonal();
     ImproveOptions used = options;
     used.mode = options.mode.value_or(Mode::kExtended);
-    if (!used.subdivision_size) used.subdivision_size = default_subdivision_size(mesh, used, diagonal, limits.max_faces);
+    if (!used.subdivision_size)
+        used.subdivision_size = default_subdivision_size(mesh, used, diagonal, limits.max_faces, fineness);
     fill_tolerances(diagonal, used);
     used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
@@ -133,22 +139,19 @@ ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& o
     return used;
 }
 
-namespace {
-
-Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
-                                    const ExecutionContext& context) {
-    const auto start = std::chrono::steady_clock::now();
+Expected<MethodResult> improve_once(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
+                                    double fineness, const ExecutionContext& context) {
     if (Status valid = check_options(options); !valid) return valid.error();
     context.report({"inspect", 0, mesh.face_count()});
     const MeshReport report = inspect(mesh);
     if (Status manifold = require_manifold(report); !manifold) return manifold.error();
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
-    ImproveOptions used = default_options(mesh, options, limits);
+    ImproveOptions used = options_as_used(mesh, options, limits, fineness);
 
     const bool extended = used.mode == Mode::kExtended;
     const std::shared_ptr<const CreasedMesh> flipped = extended ? without_slivers(mesh, used, context) : nullptr;
     const TriangleMesh& coarse = flipped ? flipped->mesh : mesh;
-    if (flipped) used = default_options(coarse, options, limits);  // its sizes may be smaller
+    if (flipped) used = options_as_used(coarse, options, limits, fineness);  // its sizes may be smaller
     const Expected<std::optional<SizePlan>> sizes = plan_for(coarse, creases_of(mesh, flipped, used), options, used, limits);
     if (!sizes) return sizes.error();
     const bool frozen = *used.freeze_boundary && !report.closed;
@@ -180,11 +183,34 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
     report_floor(result, options.min_mean_stretch);
     if (!options.faces) used.faces = result.faces;
     result.options = used;
-    result.elapsed = std::chrono::steady_clock::now() - start;
+    return result;
+}
+
+/// Whether faces of a smaller default size may have the mean stretch that these have not.
+bool may_be_finer(const TriangleMesh& mesh, const MethodResult& result, const ImproveOptions& options,
+                  const MethodLimits& limits) {
+    const auto& used = std::get<ImproveOptions>(result.options);
+    if (used.mode == Mode::kStrict || options.faces || options.subdivision_size) return false;
+    if (result.quality.stretch_mean >= kMissedShare * *used.min_mean_stretch) return false;
+    return *options_as_used(mesh, options, limits, kFinerSize).subdivision_size < *used.subdivision_size;
+}
+
+Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
+                                    const ExecutionContext& context) {
+    const auto start = std::chrono::steady_clock::now();
+    Expected<MethodResult> result = improve_once(mesh, options, limits, 1, context);
+    if (result && may_be_finer(mesh, *result, options, limits)) {
+        result = improve_once(mesh, options, limits, kFinerSize, context);
+    }
+    if (result) result->elapsed = std::chrono::steady_clock::now() - start;
     return result;
 }
 
 }  // namespace
+
+ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits) {
+    return options_as_used(mesh, options, limits, 1);
+}
 
 Expected<MethodResult> improve(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
                                const ExecutionContext& context) {

@@ -119,10 +119,20 @@ Status check_on(const TriangleMesh& source, const Options& options) {
     return options.sizing ? check_sizing_on(source, *options.sizing) : Status(Done{});
 }
 
+/// A crease that ends freely and is shorter than this many tolerances is noise, if there is much of it. Extended mode only.
+constexpr double kNoiseReach = 10;
+
 template <class Options>
 FeatureOptions features_of(const Options& options) {
-    return {options.feature_detection.value_or(FeatureDetection::kDihedral), options.feature_angle.value_or(kDefaultFeatureAngle),
-            options.feature_weight.value_or(kDefaultFeatureWeight), options.marked_edges, options.regions};
+    const bool extended = options.mode.value_or(Mode::kExtended) == Mode::kExtended;
+    FeatureOptions features;
+    features.detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
+    features.angle = options.feature_angle.value_or(kDefaultFeatureAngle);
+    features.weight = options.feature_weight.value_or(kDefaultFeatureWeight);
+    features.least_branch = extended ? kNoiseReach * options.tolerance.value_or(0) : 0;
+    features.marked_edges = options.marked_edges;
+    features.regions = options.regions;
+    return features;
 }
 
 }  // namespace

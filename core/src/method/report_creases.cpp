@@ -25,7 +25,7 @@ Status report_creases(MethodResult& result, const TriangleMesh& source, const Me
     if (result.quality.faces_below_02 == 0) return Done{};
     const double distance = run.extended ? run.max_deviation : run.prepare.tolerance;
     result.slivers = explain_slivers(mesh, creases_kept(mesh, source, creases, angle, distance),
-                                     {.edge = 0, .max_deviation = run.max_deviation});
+                                     {.edge = 0, .max_deviation = run.max_deviation, .crease_angle = run.prepare.features.angle});
     return Done{};
 }
 

@@ -23,6 +23,9 @@ constexpr std::size_t kBatch = 64 * kChunk;  ///< between looks at the common lo
 constexpr std::uint64_t kFirstSteps = 24;    ///< looks spent on each piece a round; doubled every round
 constexpr std::uint64_t kMostSteps = 4096;
 
+/// A look at so many shapes counts as another step of the budget: where boxes tell needles apart badly a look is dear.
+constexpr std::uint32_t kTestsAStep = 256;
+
 /// Cuts where a shape ends must take off or leave at least this share of the piece's radius; halving serves slices better.
 constexpr double kLeastSlice = 0.02;
 
@@ -125,12 +128,13 @@ private:
 
     bool look_at_elements() {
         return in_batches(from_.elements.size(), 0.3, 0.8, [&](std::size_t begin, std::size_t end, Findings& found) {
+            const std::uint64_t steps = is_spent() ? 0 : kFirstSteps;
             for (std::size_t e = begin; e < end; ++e) {
                 Piece piece = piece_of(from_.elements[e], enough(found.lower));
                 if (piece.upper <= enough(found.lower)) {
                     found.settled = std::max(found.settled, piece.upper);
                 } else {
-                    look_at(std::move(piece), kFirstSteps, found);
+                    look_at(std::move(piece), steps, found);
                 }
             }
         });
@@ -139,20 +143,23 @@ private:
     /// Rounds over what is open, the worst first, until nothing is or the budget ends.
     bool refine() {
         std::uint64_t steps = kFirstSteps;
-        for (double from = 0.8; !all_.open.empty() && all_.steps < limits_.evaluations; from = (from + 1) / 2) {
+        for (double from = 0.8; !all_.open.empty() && !is_spent(); from = (from + 1) / 2) {
             std::vector<Piece> pieces;
             pieces.swap(all_.open);
             std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& l, const Piece& r) { return l.upper > r.upper; });
-            steps = std::min(2 * steps, kMostSteps);
+            const std::uint64_t share = (limits_.evaluations - all_.steps) / pieces.size() + 1;
+            steps = std::min({2 * steps, kMostSteps, share});
             const bool whole =
                 in_batches(pieces.size(), from, (from + 1) / 2, [&](std::size_t begin, std::size_t end, Findings& found) {
-                    const bool spent = all_.steps >= limits_.evaluations;
-                    for (std::size_t i = begin; i < end; ++i) look_at(std::move(pieces[i]), spent ? 0 : steps, found);
+                    const std::uint64_t most = is_spent() ? 0 : steps;
+                    for (std::size_t i = begin; i < end; ++i) look_at(std::move(pieces[i]), most, found);
                 });
             if (!whole) return false;
         }
         return true;
     }
+
+    [[nodiscard]] bool is_spent() const { return all_.steps >= limits_.evaluations; }
 
     [[nodiscard]] Hit nearest(const Vec3& p, std::uint32_t near) const {
         return to_.closest(p, to_.shape(near).closest(p).squared_distance);
@@ -219,6 +226,7 @@ private:
         if (settle(piece, found)) return;
         const Vec3 centre = piece.shape.centroid();
         const Hit middle = nearest(centre, piece.near);
+        found.steps += middle.tests / kTestsAStep;
         const double distance = std::sqrt(middle.squared_distance);
         found.see(distance, centre);
         piece.upper = std::min(piece.upper, distance + piece.shape.radius(centre));
@@ -229,7 +237,9 @@ private:
         ++piece.cuts;
         if (piece.cuts % kHalvedEvery != 0 && cut_along_sides(piece, stack)) return;
         // Over one shape, the corner furthest from it is likely to be as far from all others.
-        found.see(std::sqrt(nearest(corner, middle.element).squared_distance), corner);
+        const Hit furthest = nearest(corner, middle.element);
+        found.steps += furthest.tests / kTestsAStep;
+        found.see(std::sqrt(furthest.squared_distance), corner);
         if (settle(piece, found)) return;
         auto [first, second] = piece.shape.halve();
         stack.push_back({std::move(second), piece.upper, piece.near, piece.cuts});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "spatial/shapes.h"
@@ -13,19 +14,27 @@ namespace vsplit {
 namespace {
 
 constexpr double kLeastNormalCosine = 0.2;  // a fold is more, as for collapses
+constexpr double kLeastFlipCosine = 0.9;    // a flip bends the surface no more, as FlipQuad has it
 constexpr std::size_t kMostFaces = 64;      // around a vertex that may go, as for collapses
 
 class Mender {
 public:
-    Mender(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals, double stretch)
-        : mesh_(mesh), marks_(marks), normals_(normals), stretch_(stretch) {}
+    Mender(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals, double crease_angle)
+        : mesh_(mesh), marks_(marks), normals_(normals), crease_cosine_(std::cos(crease_angle * std::numbers::pi / 180)) {}
 
     [[nodiscard]] std::optional<double> flip(HalfEdge h) const {
         const HalfEdge g = marks_.twin(h);
         if (g == kNone || marks_.marked(h)) return std::nullopt;
         const Vec3 &a = at(h), &b = at(g), &c = at(prev(h)), &d = at(prev(g));
         if (joined(prev(h), origin(mesh_, prev(g)))) return std::nullopt;
-        if (!betters(TriangleShape{{d, c, a}}, face_of(h)) || !betters(TriangleShape{{c, d, b}}, face_of(g))) return std::nullopt;
+        const TriangleShape left{{d, c, a}}, right{{c, d, b}};
+        for (const HalfEdge old : {h, g}) {
+            if (!mends(left, face_of(old), kLeastFlipCosine) || !mends(right, face_of(old), kLeastFlipCosine))
+                return std::nullopt;
+        }
+        if (!keeps_bend(prev(h), left) || !keeps_bend(next(g), left) || !keeps_bend(prev(g), right) ||
+            !keeps_bend(next(h), right))
+            return std::nullopt;
         const Vec3 across = (b - a).cross(d - c);
         const double length = across.norm();
         return length > 0 ? std::abs(across.dot(c - a)) / length : (c - a).norm();
@@ -42,7 +51,8 @@ public:
             before.push_back({{at(corner), at(next(corner)), at(prev(corner))}});
             if (corner == h || face_of(corner) == face_of(marks_.twin(h))) continue;  // the two that vanish
             after.push_back({{kept, at(next(corner)), at(prev(corner))}});
-            if (!betters(after.back(), face_of(corner))) return std::nullopt;
+            if (!mends(after.back(), face_of(corner), kLeastNormalCosine)) return std::nullopt;
+            if (!keeps_bend(next(corner), after.back())) return std::nullopt;
         }
         return distance_between(at(h), before, after);
     }
@@ -50,11 +60,27 @@ public:
 private:
     [[nodiscard]] const Vec3& at(HalfEdge h) const { return mesh_.positions[origin(mesh_, h)]; }
 
-    /// Whether a face that replaces another is no fold, and no sliver as bad as the one to be mended.
-    [[nodiscard]] bool betters(const TriangleShape& face, std::uint32_t old) const {
+    /// Whether a face that replaces another is no fold, and no sliver.
+    [[nodiscard]] bool mends(const TriangleShape& face, std::uint32_t old, double least_cosine) const {
         const auto& [a, b, c] = face.corners;
-        const Vec3 normal = (b - a).cross(c - a);
-        return normal.dot(normals_.normals[old]) > kLeastNormalCosine * normal.norm() && vsplit::stretch(a, b, c) > stretch_;
+        const Vec3 normal = normal_of(face);
+        return normal.dot(normals_.normals[old]) > least_cosine * normal.norm() && stretch(a, b, c) >= kStretchFloor;
+    }
+
+    /// Whether the edge of `side`, if it is a crease, bends enough with `face` on this side of it.
+    [[nodiscard]] bool keeps_bend(HalfEdge side, const TriangleShape& face) const {
+        const HalfEdge twin = marks_.twin(side);
+        if (twin == kNone || !marks_.marked(side)) return true;
+        const Vec3& beyond = normals_.normals[face_of(twin)];
+        if (normals_.normals[face_of(side)].dot(beyond) >= crease_cosine_) return true;
+        const Vec3 normal = normal_of(face);
+        return normal.dot(beyond) < crease_cosine_ * normal.norm();
+    }
+
+    /// As long as twice the area.
+    [[nodiscard]] static Vec3 normal_of(const TriangleShape& face) {
+        const auto& [a, b, c] = face.corners;
+        return (b - a).cross(c - a);
     }
 
     /// The half-edges that leave the origin of h; empty on a boundary.
@@ -109,14 +135,14 @@ private:
     const TriangleMesh& mesh_;
     const CreaseMarks& marks_;
     const FaceNormals& normals_;
-    double stretch_;  // of the sliver
+    double crease_cosine_;
 };
 
 }  // namespace
 
 std::optional<double> least_mend(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals,
-                                 const SliverFace& face) {
-    const Mender mender(mesh, marks, normals, face.stretch);
+                                 double crease_angle, const SliverFace& face) {
+    const Mender mender(mesh, marks, normals, crease_angle);
     std::optional<double> least = mender.flip(face.longest);
     const auto take = [&](const std::optional<double>& moved) {
         if (moved && (!least || *moved < *least)) least = moved;

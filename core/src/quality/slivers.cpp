@@ -63,15 +63,15 @@ struct Finding {
     double value = 0;
 };
 
-Finding find_cause(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals, double max_deviation,
+Finding find_cause(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals, const SliverOptions& options,
                    const SliverFace& face) {
     const SliverFeatures features(mesh, marks);
     if (const auto angle = features.sharp_corner(face)) return {SliverCause::kSharpCorner, *angle};
     if (const auto gap = features.narrow_strip(face)) return {SliverCause::kNarrowStrip, *gap};
     if (const auto distance = features.close_corners(face)) return {SliverCause::kCloseCorners, *distance};
-    if (!(max_deviation > 0)) return {SliverCause::kUnexplained, face.stretch};
-    const std::optional<double> moved = least_mend(mesh, marks, normals, face);
-    if (moved && *moved > max_deviation) return {SliverCause::kDeviation, *moved};
+    if (!(options.max_deviation > 0)) return {SliverCause::kUnexplained, face.stretch};
+    const std::optional<double> moved = least_mend(mesh, marks, normals, options.crease_angle, face);
+    if (moved && *moved > options.max_deviation) return {SliverCause::kDeviation, *moved};
     if (!moved && touches_crease(marks, face_of(face.longest))) return {SliverCause::kHeldByCreases, face.stretch};
     return {SliverCause::kUnexplained, face.stretch};
 }
@@ -96,7 +96,7 @@ std::string message_of(const Slivers& s, double max_deviation) {
                    ": mending moves the surface by " + values;
         case SliverCause::kHeldByCreases:
             return faces + "of stretch " + values + (one ? " has" : " have") +
-                   " corners on creases, and no flip or collapse betters " + (one ? "it" : "them") + " that keeps those";
+                   " corners on creases, and no flip or collapse mends " + (one ? "it" : "them") + " that keeps those";
         case SliverCause::kUnexplained:
             return faces + "of stretch " + values + (one ? " is" : " are") +
                    " forced by no crease and no bound that was looked at";
@@ -141,7 +141,7 @@ std::vector<Slivers> explain_slivers(const TriangleMesh& mesh, const std::vector
     const double edge = options.edge > 0 ? options.edge : mean_edge(mesh);
     std::array<Slivers, kCauses.size()> groups;
     for (const std::uint32_t f : slivers) {
-        const Finding found = find_cause(mesh, marks, normals, options.max_deviation, describe(mesh, f, edge));
+        const Finding found = find_cause(mesh, marks, normals, options, describe(mesh, f, edge));
         add(groups[static_cast<std::size_t>(found.cause)], f, found.value);
     }
     std::vector<Slivers> explained;

@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -167,6 +168,25 @@ private:
     float width_ = 0;
 };
 
+/// Axes, as rows, along which boxes are slim: those of the shapes' sides where these are much longer in one direction than the
+/// shapes are wide, as of cables and of needles that fill strips. A box along other axes holds all that lies about a needle.
+template <class Shape>
+Eigen::Matrix3d own_axes(const std::vector<Shape>& shapes) {
+    constexpr double kDominant = 0.9;  // share of the sides' squared lengths
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Shape& shape : shapes) {
+        for (std::size_t i = 0; i < Shape::kCorners; ++i) {
+            const Vec3 side = shape.corners[(i + 1) % Shape::kCorners] - shape.corners[i];
+            spread += side * side.transpose();
+        }
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+    if (solver.info() != Eigen::Success || !(solver.eigenvalues()[2] > kDominant * spread.trace())) {
+        return Eigen::Matrix3d::Identity();
+    }
+    return solver.eigenvectors().transpose();
+}
+
 }  // namespace
 
 template <class Shape>
@@ -259,6 +279,12 @@ private:
 };
 
 template <class Shape>
+Eigen::Vector3f ShapeIndex<Shape>::in_own_frame(const Vec3& p) const {
+    const Vec3 own = turn_ * ((p - centre_) * scale_);
+    return own.cwiseMax(-kFar).cwiseMin(kFar).template cast<float>();
+}
+
+template <class Shape>
 ShapeIndex<Shape>::ShapeIndex(std::vector<Shape> shapes) {
     if (shapes.empty()) return;
     BoundingBox box;
@@ -269,15 +295,16 @@ ShapeIndex<Shape>::ShapeIndex(std::vector<Shape> shapes) {
         }
     }
     centre_ = (box.min + box.max) / 2;
-    const double reach = (box.max - box.min).maxCoeff() / 2;
+    const double reach = box.diagonal() / 2;
     scale_ = reach > 1e-150 ? 1 / reach : 1;
+    turn_ = own_axes(shapes);
 
     std::vector<Item> items(shapes.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, items.size(), 4096), [&](const tbb::blocked_range<std::size_t>& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             items[i].element = static_cast<std::uint32_t>(i);
             for (const Vec3& corner : shapes[i].corners) {
-                const Eigen::Vector3f p = ((corner - centre_) * scale_).template cast<float>();
+                const Eigen::Vector3f p = in_own_frame(corner);
                 items[i].box.add(
                     {{p.x() - kMargin, p.y() - kMargin, p.z() - kMargin}, {p.x() + kMargin, p.y() + kMargin, p.z() + kMargin}});
             }
@@ -298,8 +325,7 @@ ShapeIndex<Shape>::ShapeIndex(std::vector<Shape> shapes) {
 /// A point in the frame of the boxes.
 template <class Shape>
 struct ShapeIndex<Shape>::Query {
-    Query(const Vec3& p, const Vec3& centre, double scale) {
-        const Eigen::Vector3f own = ((p - centre) * scale).cwiseMax(-kFar).cwiseMin(kFar).template cast<float>();
+    explicit Query(const Eigen::Vector3f& own) {
         for (int axis = 0; axis < 3; ++axis) at[static_cast<std::size_t>(axis)] = Lanes{} + own[axis];
     }
 
@@ -327,11 +353,12 @@ double ShapeIndex<Shape>::far_bound(double squared_distance) const {
 
 template <class Shape>
 void ShapeIndex<Shape>::search_leaf(const Vec3& p, std::uint32_t first, std::uint32_t count, Hit& hit) const {
+    hit.tests += count;
     for (std::uint32_t slot = first; slot < first + count; ++slot) {
         const Footpoint foot = shapes_[slot].closest(p);
         const bool nearer = foot.squared_distance < hit.squared_distance ||
                             (foot.squared_distance == hit.squared_distance && element_[slot] < hit.element);
-        if (nearer) hit = {foot.squared_distance, foot.point, element_[slot]};
+        if (nearer) hit = {foot.squared_distance, foot.point, element_[slot], hit.tests};
     }
 }
 
@@ -342,9 +369,9 @@ auto ShapeIndex<Shape>::search(const Vec3& p, double upper_squared, double enoug
         std::uint32_t child;
         std::uint32_t count;
     };
-    Hit hit{upper_squared, p, kNoElement};
+    Hit hit{upper_squared, p, kNoElement, 0};
     if (nodes_.empty()) return hit;
-    const Query query(p, centre_, scale_);
+    const Query query(in_own_frame(p));
     double bound = far_bound(upper_squared);
     std::array<Entry, kStack> stack;  // NOLINT: filling it would cost more than the search
     std::size_t height = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -20,6 +21,7 @@ public:
         double squared_distance = std::numeric_limits<double>::infinity();
         Vec3 point = Vec3::Zero();
         std::uint32_t element = kNoElement;  ///< index of the shape; of several equally near the smallest
+        std::uint32_t tests = 0;             ///< shapes that were looked at: many where boxes say little, as of needles
     };
 
     /// O(shapes log shapes), in parallel; the same tree for any number of threads. \pre coordinates are finite, under 1e15 in
@@ -43,6 +45,8 @@ public:
     }
 
 private:
+    using Matrix3 = Eigen::Matrix3d;
+
     // Four floats that the compiler keeps in one register where there is one. Both compilers know these.
     using Lanes = float __attribute__((vector_size(16)));
     static constexpr std::size_t kWidth = 4;
@@ -60,6 +64,7 @@ private:
 
     /// Ends at the first shape whose squared distance is at most `enough`.
     [[nodiscard]] Hit search(const Vec3& p, double upper_squared, double enough) const;
+    [[nodiscard]] Eigen::Vector3f in_own_frame(const Vec3& p) const;
     [[nodiscard]] double far_bound(double squared_distance) const;
     void search_leaf(const Vec3& p, std::uint32_t first, std::uint32_t count, Hit& hit) const;
 
@@ -68,7 +73,8 @@ private:
     std::vector<std::uint32_t> slot_;     ///< of each element
     std::vector<Node> nodes_;             ///< the root first; empty without shapes
     Vec3 centre_ = Vec3::Zero();
-    double scale_ = 1;  ///< own frame: (p - centre) * scale, all shapes within -1..1
+    Matrix3 turn_ = Matrix3::Identity();  ///< own frame: scaled turn * (p - centre), all shapes within -1..1
+    double scale_ = 1;
 };
 
 extern template class ShapeIndex<TriangleShape>;

@@ -15,8 +15,10 @@ namespace vsplit {
 /// Everything that makes an edge a crease.
 struct FeatureOptions {
     FeatureDetection detection = FeatureDetection::kDihedral;
-    double angle = 40;   ///< degrees, 0..180: as in SharpEdgeOptions, for either detection
-    double weight = 10;  ///< as in SharpEdgeOptions; what is marked, a border or a boundary weighs at least this
+    double angle = 40;        ///< degrees, 0..180: as in SharpEdgeOptions, for either detection
+    double weight = 10;       ///< as in SharpEdgeOptions; what is marked, a border or a boundary weighs at least this
+    double least_branch = 0;  ///< length, model units, >= 0: shorter sharp edges that end freely go where many do, as on a scan;
+                              ///< DIHEDRAL only. 0: none goes
     std::vector<std::uint32_t> marked_edges{};  ///< edges the user marks, as pairs of vertices of the mesh; default none
     std::vector<std::uint32_t> regions{};       ///< an id a face; edges between faces of different ids are creases. Default none
 };

@@ -13,7 +13,8 @@ namespace vsplit {
 struct DeviationOptions {
     double relative_error = 0.02;   ///< share of the lower bound; 0 to 1
     double absolute_error = 0;      ///< length, model units; >= 0. 0: 1e-5 of the source's bounding-box diagonal
-    std::uint64_t evaluations = 0;  ///< most pieces to look at, each way; 0: a million and 200 for each face or crease of both
+    std::uint64_t evaluations = 0;  ///< most pieces to look at, each way, those where a nearest point is hard to find counting
+                                    ///< several times; 0: a million and 200 for each face or crease of both
 };
 
 /// The largest distance from the points of one thing to another thing. It lies in [lower, upper], up to the rounding of the

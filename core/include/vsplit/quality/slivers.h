@@ -16,7 +16,7 @@ enum class SliverCause {
     kSharpCorner,    ///< two creases that meet at an angle below what the floor needs
     kCloseCorners,   ///< two corners of creases (ends, meetings, turns over 40 degrees) as close
     kDeviation,      ///< each flip or collapse that would mend it moves the surface by more than max_deviation
-    kHeldByCreases,  ///< it has a corner on a crease, and no flip or collapse betters it that keeps creases
+    kHeldByCreases,  ///< it has a corner on a crease, and no flip or collapse mends it that keeps creases
     kUnexplained,    ///< nothing of these
 };
 
@@ -39,6 +39,7 @@ struct Slivers {
 struct SliverOptions {
     double edge = 0;           ///< length of edges wanted; >= 0. 0: the mean edge. A longer edge explains no sliver by its length
     double max_deviation = 0;  ///< length; >= 0. 0: no bound, so none explains anything
+    double crease_angle = 0;   ///< degrees, 0..180: creases that bend by more have to go on doing so. 0: none has to
 };
 
 /// Why each face with a stretch under kStretchFloor (0.2) is one: the first cause that holds, a sharp corner before a strip, the
