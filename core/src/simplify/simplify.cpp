@@ -295,6 +295,7 @@ private:
         mesh_.collapse(star, evaluation.position);
         creases_.commit();
         update_faces(kept);
+        if constexpr (Policy::kExtended) mesh_.touch_around(kept);
         if constexpr (Policy::kExtended) flip_around(kept);
         requeue_around(kept);
     }
