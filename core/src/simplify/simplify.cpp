@@ -55,7 +55,7 @@ public:
           policy_(policy),
           context_(context),
           mesh_(input_.mesh, input_.ghosts),
-          state_(initial_state(input_)),
+          state_(take_initial_state(input_)),
           queue_(mesh_.half_edge_count()),
           out_of_reach_(mesh_.half_edge_count(), 0),
           refusals_(mesh_.half_edge_count(), 0),
@@ -67,12 +67,7 @@ public:
           creases_(mesh_, state_, crease_guard_.get(), input_.crease_cosine),
           polisher_(mesh_, state_, log_, {guard_.get(), crease_guard_.get()}, limits_of(policy_, input_)) {
         mark_creases();
-        input_.mesh = {};
-        input_.normals = {};
-        input_.quadrics = {};
         input_.creases = {};
-        input_.sizes = {};
-        input_.boundary_corners = {};
     }
 
     [[nodiscard]] Expected<MultiresMesh> run() {
