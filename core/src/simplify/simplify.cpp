@@ -68,16 +68,27 @@ public:
           polisher_(mesh_, state_, log_, {guard_.get(), crease_guard_.get()}, limits_of(policy_, input_)) {
         mark_creases();
         input_.creases = {};
+        log_.reserve((faces_start_ - std::min(faces_start_, input_.faces_min)) / 2 + 1);
     }
 
     [[nodiscard]] Expected<MultiresMesh> run() {
         Status done = Policy::kExtended ? collapse_and_polish() : mend_and_collapse();
         if (!done) return done.error();
         context_.report({"simplify", 1, mesh_.live_faces()});
+        let_go();
         return log_.build(mesh_, input_.ghosts);
     }
 
 private:
+    /// Leaves the mesh alone: the representation takes as much as the rest did.
+    void let_go() {
+        state_ = {};
+        queue_ = EdgeQueue(0);
+        guard_ = nullptr;
+        for (std::vector<std::uint8_t>* flags : {&out_of_reach_, &refusals_}) *flags = {};
+        visited_ = {};
+    }
+
     [[nodiscard]] static PolishLimits limits_of(const Policy& policy, const SimplifyInput& input) {
         PolishLimits limits{.centre = input.centre, .tolerance = input.tolerance, .crease_cosine = input.crease_cosine};
         if constexpr (requires { policy.max_valence; }) {
