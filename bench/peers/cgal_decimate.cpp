@@ -1,5 +1,5 @@
-/// CGAL's edge collapse by Garland and Heckbert's quadrics (probabilistic planes), a program of its own as peer_cgal_remesh is: CGAL
-/// is under the GPL.
+/// CGAL's edge collapse by Garland and Heckbert's quadrics (probabilistic planes), a program of its own as peer_cgal_remesh is:
+/// CGAL is under the GPL.
 ///
 ///     peer_cgal_decimate IN.off OUT.off FACES
 ///

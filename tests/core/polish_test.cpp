@@ -64,7 +64,8 @@ void expect_same(const Guarded& one, const Guarded& other) {
 
 TEST(PolishTest, WhatIsLeftOutWouldHaveStayed) {
     const std::vector<TriangleMesh> meshes = {test::noisy_cube(9, 0.03, 1), test::jittered_cube(8, 0.15, 2),
-                                              test::bumpy_sphere(3, 0.02, 3), test::punctured(test::bumpy_sphere(3, 0.02, 4), {7, 90})};
+                                              test::bumpy_sphere(3, 0.02, 3),
+                                              test::punctured(test::bumpy_sphere(3, 0.02, 4), {7, 90})};
     for (const TriangleMesh& mesh : meshes) {
         Guarded lazy(mesh), literal(mesh);
         Polisher polisher(lazy.parts.mesh, lazy.parts.state, lazy.parts.log, lazy.guards(), lazy.limits());

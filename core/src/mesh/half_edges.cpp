@@ -43,7 +43,8 @@ EdgeIndex::EdgeIndex(const std::vector<Triangle>& faces, std::size_t vertices) {
         entries_[slot[a]++] = {std::uint64_t{a} << 32U | b, h};
     }
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices, 4096), [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t v = range.begin(); v < range.end(); ++v) sort_edges(entries_.data() + first[v], entries_.data() + first[v + 1]);
+        for (std::size_t v = range.begin(); v < range.end(); ++v)
+            sort_edges(entries_.data() + first[v], entries_.data() + first[v + 1]);
     });
 }
 

@@ -145,8 +145,8 @@ std::vector<std::uint8_t> vertices_of_several_fans_in_regular(const TriangleMesh
 bool is_regular(const TriangleMesh& mesh, const EdgeIndex& edges) {
     bool regular = true;
     edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
-        regular &= last - first == 1 ||
-                   (last - first == 2 && origin(mesh, first[0].half_edge) != origin(mesh, first[1].half_edge));
+        regular &=
+            last - first == 1 || (last - first == 2 && origin(mesh, first[0].half_edge) != origin(mesh, first[1].half_edge));
     });
     return regular;
 }
@@ -281,10 +281,8 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
         duplicates(Finding::Kind::kDuplicateFace);
     // Each looks at the mesh and writes what is its own.
     tbb::parallel_invoke([&] { vertices = survey_vertices(mesh, index, is_regular(mesh, index)); },
-                         [&] { edges = survey_edges(mesh, index); },
-                         [&] { duplicates = survey_duplicates(mesh, index); },
-                         [&] { degenerate = survey_degenerate(mesh); },
-                         [&] { report.quality = measure_quality(mesh, index); },
+                         [&] { edges = survey_edges(mesh, index); }, [&] { duplicates = survey_duplicates(mesh, index); },
+                         [&] { degenerate = survey_degenerate(mesh); }, [&] { report.quality = measure_quality(mesh, index); },
                          [&] { report.box = bounding_box(mesh); });
     report.boundary_touches = survey_touches(mesh, index, vertices);
     report.components = edges.components;

@@ -66,11 +66,11 @@ private:
     const double limit_;
     const double limit_square_;
     std::vector<Vec3> points_;
-    std::vector<std::uint32_t> next_;   // of a point: the next one at its face, or kNone
-    std::vector<std::uint32_t> first_;  // of a face: its first point, or kNone
+    std::vector<std::uint32_t> next_;       // of a point: the next one at its face, or kNone
+    std::vector<std::uint32_t> first_;      // of a face: its first point, or kNone
     std::uint32_t near_face_ = kNone;       // of the source: the one found last
     std::vector<PreparedTriangle> shapes_;  // of the new faces
-    std::vector<Place> places_;         // where the points of old faces would go
+    std::vector<Place> places_;             // where the points of old faces would go
 };
 
 }  // namespace vsplit

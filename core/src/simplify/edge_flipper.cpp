@@ -161,8 +161,8 @@ void EdgeFlipper::flip_open_edges() {
     }
 }
 
-/// Whether nothing that flip_if_better looks at has changed since all edges were looked at: faces at the four vertices of the quad,
-/// which those across its sides are among.
+/// Whether nothing that flip_if_better looks at has changed since all edges were looked at: faces at the four vertices of the
+/// quad, which those across its sides are among.
 bool EdgeFlipper::is_as_refused(HalfEdge h) const {
     if (!looked_at_all_) return false;
     const HalfEdge g = mesh_.twin(h);

@@ -18,7 +18,8 @@ bool Polisher::is_as_tried(std::uint32_t v, std::uint32_t start) const {
     bool same = true;
     mesh_.for_each_outgoing(v, [&](HalfEdge h) {
         const HalfEdge side = next(h);
-        if (mesh_.is_crease(side)) same &= std::max(mesh_.changed_at(mesh_.origin(side)), mesh_.changed_at(mesh_.target(side))) <= start;
+        if (mesh_.is_crease(side))
+            same &= std::max(mesh_.changed_at(mesh_.origin(side)), mesh_.changed_at(mesh_.target(side))) <= start;
     });
     return same;
 }

@@ -46,7 +46,8 @@ struct TriangleShape {
     [[nodiscard]] std::array<HalfSpace, kCorners> sides() const;
 };
 
-/// A triangle that many points are measured to: what depends on it alone is found once. Says what TriangleShape says, bit for bit.
+/// A triangle that many points are measured to: what depends on it alone is found once. Says what TriangleShape says, bit for
+/// bit.
 class PreparedTriangle {
 public:
     explicit PreparedTriangle(const TriangleShape& shape);
