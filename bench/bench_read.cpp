@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Cut by length to no more than `faces`.
-vsplit::TriangleMesh densify(vsplit::TriangleMesh mesh, std::uint32_t faces) {
+vsplit::TriangleMesh densify(const vsplit::TriangleMesh& mesh, std::uint32_t faces) {
     const vsplit::ExecutionContext context;
     double size = vsplit::bounding_box(mesh).diagonal();
     while (vsplit::predict_subdivision(mesh, size / 1.1, 2ULL * faces) <= faces) size /= 1.1;
