@@ -25,7 +25,8 @@ vsplit::TriangleMesh densify(const vsplit::TriangleMesh& mesh, std::uint32_t fac
     double size = vsplit::bounding_box(mesh).diagonal();
     while (vsplit::predict_subdivision(mesh, size / 1.1, 2ULL * faces) <= faces) size /= 1.1;
     auto dense = vsplit::subdivide_to_size(mesh, size, 2 * faces, context);
-    return dense ? std::move(dense->mesh) : mesh;
+    if (!dense) return mesh;
+    return std::move(dense->mesh);
 }
 
 bool make(const std::string& from, const std::string& to, std::uint32_t faces) {
