@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 #include "tests/core/meshes.h"
+#include "tests/core/random.h"
 
 namespace vsplit {
 namespace {
@@ -111,6 +114,92 @@ TEST(InspectTest, CountsDegenerateAndDuplicateFaces) {
     flat.positions[3] = (flat.positions[0] + flat.positions[1]) / 2;
     EXPECT_GE(inspect(flat).degenerate_faces, 1U);
     EXPECT_TRUE(inspect(flat).closed);
+}
+
+/// Vertices of several fans, by looking at each pair of corners of a vertex until nothing joins any more.
+std::vector<std::uint32_t> several_fans_by_pairs(const TriangleMesh& mesh) {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        std::vector<std::array<std::uint32_t, 2>> others;  // of each corner at v
+        for (const Triangle& t : mesh.faces) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                if (t[c] == v) others.push_back({t[(c + 1) % 3], t[(c + 2) % 3]});
+            }
+        }
+        std::vector<std::size_t> fan(others.size());
+        for (std::size_t n = 0; n < fan.size(); ++n) fan[n] = n;
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::size_t n = 0; n < fan.size(); ++n) {
+                for (std::size_t m = 0; m < fan.size(); ++m) {
+                    const bool share = others[n][0] == others[m][0] || others[n][0] == others[m][1] ||
+                                       others[n][1] == others[m][0] || others[n][1] == others[m][1];
+                    if (!share || fan[n] <= fan[m]) continue;
+                    fan[n] = fan[m];
+                    changed = true;
+                }
+            }
+        }
+        if (!fan.empty() && *std::max_element(fan.begin(), fan.end()) > 0) found.push_back(v);
+    }
+    return found;
+}
+
+std::vector<std::uint32_t> duplicates_by_sorting(const TriangleMesh& mesh) {
+    std::set<Triangle> seen;
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        Triangle t = mesh.faces[f];
+        std::sort(t.begin(), t.end());
+        if (!seen.insert(t).second) found.push_back(f);
+    }
+    return found;
+}
+
+void expect_as_by_brute_force(const TriangleMesh& mesh) {
+    const MeshReport report = inspect(mesh);
+    const std::vector<std::uint32_t> fans = several_fans_by_pairs(mesh), duplicates = duplicates_by_sorting(mesh);
+    EXPECT_EQ(report.non_manifold_vertices, fans.size());
+    EXPECT_EQ(report.duplicate_faces, duplicates.size());
+    const auto expect_first = [&](Finding::Kind kind, std::vector<std::uint32_t> all) {
+        all.resize(std::min(all.size(), Finding::kExamples));
+        const Finding* finding = find(report, kind);
+        EXPECT_EQ(finding == nullptr ? std::vector<std::uint32_t>{} : finding->elements, all);
+    };
+    expect_first(Finding::Kind::kNonManifoldVertex, fans);
+    expect_first(Finding::Kind::kDuplicateFace, duplicates);
+}
+
+/// Vertices at random made one.
+TriangleMesh pinched(TriangleMesh mesh, int times, std::uint64_t seed) {
+    test::Random random(seed);
+    const auto any = [&] { return static_cast<std::uint32_t>(random.uniform(0, mesh.vertex_count())); };
+    for (int n = 0; n < times; ++n) {
+        const std::uint32_t from = any(), to = any();
+        for (Triangle& t : mesh.faces) {
+            for (std::uint32_t& v : t) v = v == from ? to : v;
+        }
+    }
+    std::erase_if(mesh.faces, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    return mesh;
+}
+
+TEST(InspectTest, FansAndDuplicatesAreThoseOfBruteForce) {
+    test::Random random(3);
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        TriangleMesh mesh = pinched(test::punctured(test::icosphere(2), {3, 50}), static_cast<int>(seed % 5), seed);
+        expect_as_by_brute_force(mesh);
+        for (std::uint64_t n = 0; n < seed % 4; ++n) mesh.faces.push_back(mesh.faces[7 * n]);
+        if (seed % 2 == 0) std::swap(mesh.faces[20][0], mesh.faces[20][1]);
+        expect_as_by_brute_force(mesh);
+        TriangleMesh soup{mesh.positions, {}};  // of few vertices: all kinds of edges
+        for (int n = 0; n < 60; ++n) {
+            const auto any = [&] { return static_cast<std::uint32_t>(random.uniform(0, 12)); };
+            const std::uint32_t a = any();
+            soup.faces.push_back({a, (a + 1 + any() % 5) % 12, (a + 6 + any() % 5) % 12});
+        }
+        expect_as_by_brute_force(soup);
+    }
 }
 
 TEST(InspectTest, SaysWhatTheWeldDropped) {

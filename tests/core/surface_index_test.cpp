@@ -176,6 +176,50 @@ TEST(SurfaceIndexTest, AnUpperBoundChangesNothingButWhatIsBeyond) {
     }
 }
 
+TEST(ShapesTest, APreparedTriangleSaysWhatTheTriangleSays) {
+    test::Random random(21);
+    for (int i = 0; i < 20000; ++i) {
+        TriangleShape t{{random_point(random, 1), random_point(random, 1), random_point(random, 1)}};
+        const double thinness = std::pow(10, random.uniform(-12, 0));
+        if (i % 2 == 0) t.corners[2] = t.corners[0] + (t.corners[1] - t.corners[0]) * 0.3 + thinness * random_point(random, 1);
+        const Vec3 p = random_point(random, 2);
+        const PreparedTriangle prepared(t);
+        const Footpoint foot = t.closest(p);
+        EXPECT_EQ(prepared.closest(p).squared_distance, foot.squared_distance);
+        EXPECT_EQ(prepared.squared_distance(p, kInfinity), foot.squared_distance);
+        for (const double share : {0.25, 0.9999, 1.0001, 4.0}) {
+            const double most = share * foot.squared_distance;
+            const double found = prepared.squared_distance(p, most);
+            if (foot.squared_distance < most) {
+                EXPECT_EQ(found, foot.squared_distance);
+            } else {
+                EXPECT_GE(found, most);
+            }
+        }
+    }
+}
+
+TEST(SurfaceIndexTest, AHintChangesNothing) {
+    const TriangleMesh mesh = test::bumpy_sphere(3, 0.1, 6);
+    const SurfaceIndex index = surface_index(mesh);
+    test::Random random(9);
+    std::uint32_t hint = SurfaceIndex::kNoElement;
+    int near = 0;
+    for (int i = 0; i < 5000; ++i) {
+        const Vec3 p = random_point(random, 1.5);
+        const double distance = random.uniform(0, 1);
+        const bool within = index.within(p, distance);
+        EXPECT_EQ(index.within(p, distance, hint), within);
+        near += within ? 1 : 0;
+        if (within) {
+            EXPECT_LE(index.shape(hint).closest(p).squared_distance, distance * distance);
+        }
+        if (i % 7 == 0) hint = static_cast<std::uint32_t>(random.uniform(0, 2.0 * mesh.face_count()));
+    }
+    EXPECT_GT(near, 100);
+    EXPECT_LT(near, 4900);
+}
+
 TEST(SurfaceIndexTest, WithinAgreesWithTheNearest) {
     const TriangleMesh mesh = test::bumpy_sphere(3, 0.1, 6);
     const SurfaceIndex index = surface_index(mesh);

@@ -1,10 +1,33 @@
 #include "mesh/half_edges.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
 
 namespace vsplit {
+namespace {
+
+/// \pre in order of half-edges. Nearly all vertices have a few edges only, for which this is quickest.
+void sort_edges(EdgeIndex::Entry* first, EdgeIndex::Entry* last) {
+    constexpr std::ptrdiff_t kFew = 32;
+    if (last - first > kFew) {
+        std::sort(first, last, [](const EdgeIndex::Entry& left, const EdgeIndex::Entry& right) {
+            return std::tie(left.key, left.half_edge) < std::tie(right.key, right.half_edge);
+        });
+        return;
+    }
+    for (EdgeIndex::Entry* entry = first; entry < last; ++entry) {
+        const EdgeIndex::Entry moved = *entry;
+        EdgeIndex::Entry* to = entry;
+        for (; to > first && (to - 1)->key > moved.key; --to) *to = *(to - 1);
+        *to = moved;
+    }
+}
+
+}  // namespace
 
 EdgeIndex::EdgeIndex(const std::vector<Triangle>& faces, std::size_t vertices) {
     // A counting sort by the smaller vertex, which leaves half-edges in order; then each vertex's few edges by the larger one.
@@ -19,16 +42,17 @@ EdgeIndex::EdgeIndex(const std::vector<Triangle>& faces, std::size_t vertices) {
         const auto [a, b] = ends(h);
         entries_[slot[a]++] = {std::uint64_t{a} << 32U | b, h};
     }
-    for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-        std::sort(entries_.begin() + first[v], entries_.begin() + first[v + 1], [](const Entry& left, const Entry& right) {
-            return std::tie(left.key, left.half_edge) < std::tie(right.key, right.half_edge);
-        });
-    }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices, 4096), [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t v = range.begin(); v < range.end(); ++v)
+            sort_edges(entries_.data() + first[v], entries_.data() + first[v + 1]);
+    });
 }
 
-std::vector<HalfEdge> half_edge_twins(const TriangleMesh& mesh) {
+std::vector<HalfEdge> half_edge_twins(const TriangleMesh& mesh) { return half_edge_twins(mesh, EdgeIndex(mesh)); }
+
+std::vector<HalfEdge> half_edge_twins(const TriangleMesh& mesh, const EdgeIndex& edges) {
     std::vector<HalfEdge> twins(mesh.faces.size() * 3, kNone);
-    EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
+    edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
         if (last - first != 2) return;
         const HalfEdge h = first[0].half_edge;
         const HalfEdge g = first[1].half_edge;

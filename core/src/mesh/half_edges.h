@@ -55,6 +55,7 @@ private:
 /// twin[h]: the half-edge that runs along the same edge the other way, or kNone at a boundary or where the edge is not shared by
 /// exactly two faces that run along it in opposite directions. O(faces log faces).
 [[nodiscard]] std::vector<HalfEdge> half_edge_twins(const TriangleMesh& mesh);
+[[nodiscard]] std::vector<HalfEdge> half_edge_twins(const TriangleMesh& mesh, const EdgeIndex& edges);
 
 /// Edges at each vertex, each counted once: at a boundary one more than faces. O(faces).
 [[nodiscard]] std::vector<std::uint32_t> valences(const TriangleMesh& mesh, const EdgeIndex& edges);

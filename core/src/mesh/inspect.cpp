@@ -1,5 +1,9 @@
 #include "vsplit/mesh/inspect.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -33,6 +37,13 @@ public:
 private:
     std::vector<std::uint32_t> parent_;
 };
+
+template <class Visit>
+void for_each_in_parallel(std::size_t count, Visit visit) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t n = range.begin(); n < range.end(); ++n) visit(n);
+    });
+}
 
 /// Counts things of one kind and keeps the first few places.
 class FindingCounter {
@@ -83,8 +94,8 @@ EdgeSurvey survey_edges(const TriangleMesh& mesh, const EdgeIndex& edges) {
     return survey;
 }
 
-/// Vertices whose faces form more than one fan around them. Corners joined across shared edges at the same vertex are one fan.
-FindingCounter survey_vertices(const TriangleMesh& mesh, const EdgeIndex& edges) {
+/// Corners joined across shared edges at the same vertex are one fan. For any mesh.
+std::vector<std::uint8_t> vertices_of_several_fans(const TriangleMesh& mesh, const EdgeIndex& edges) {
     DisjointSets fans(mesh.faces.size() * 3);
     const auto corner_at = [&](HalfEdge h, std::uint32_t vertex) { return origin(mesh, h) == vertex ? h : next(h); };
     edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
@@ -94,41 +105,93 @@ FindingCounter survey_vertices(const TriangleMesh& mesh, const EdgeIndex& edges)
         }
     });
     std::vector<std::uint32_t> fan_of(mesh.positions.size(), kNone);
-    std::vector<bool> several(mesh.positions.size(), false);
+    std::vector<std::uint8_t> several(mesh.positions.size(), 0);
     for (HalfEdge h = 0; h < mesh.faces.size() * 3; ++h) {
         const std::uint32_t v = origin(mesh, h);
         const std::uint32_t fan = fans.find(h);
         if (fan_of[v] == kNone) fan_of[v] = fan;
-        if (fan_of[v] != fan) several[v] = true;
+        if (fan_of[v] != fan) several[v] = 1;
     }
+    return several;
+}
+
+/// Corners that a walk around the vertex of one of them comes by; across the edges of `twins` there is one way to go.
+std::uint32_t corners_in_fan(const std::vector<HalfEdge>& twins, HalfEdge corner) {
+    std::uint32_t count = 1;
+    HalfEdge h = twins[prev(corner)];
+    for (; h != kNone && h != corner; h = twins[prev(h)]) ++count;
+    if (h == corner) return count;
+    for (h = twins[corner]; h != kNone; h = twins[next(h)]) ++count;  // it is open: the other way too
+    return count;
+}
+
+/// The same where all is regular, by a walk around each vertex.
+std::vector<std::uint8_t> vertices_of_several_fans_in_regular(const TriangleMesh& mesh, const EdgeIndex& edges) {
+    const std::vector<HalfEdge> twins = half_edge_twins(mesh, edges);
+    std::vector<HalfEdge> corner(mesh.positions.size(), kNone);
+    std::vector<std::uint32_t> corners(mesh.positions.size(), 0);
+    for (HalfEdge h = 0; h < twins.size(); ++h) {
+        corner[origin(mesh, h)] = h;
+        ++corners[origin(mesh, h)];
+    }
+    std::vector<std::uint8_t> several(mesh.positions.size(), 0);
+    for_each_in_parallel(mesh.positions.size(), [&](std::size_t v) {
+        several[v] = corners[v] > 0 && corners_in_fan(twins, corner[v]) < corners[v] ? 1 : 0;
+    });
+    return several;
+}
+
+/// Whether every edge is a boundary or has two faces that agree on which side is outside.
+bool is_regular(const TriangleMesh& mesh, const EdgeIndex& edges) {
+    bool regular = true;
+    edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
+        regular &=
+            last - first == 1 || (last - first == 2 && origin(mesh, first[0].half_edge) != origin(mesh, first[1].half_edge));
+    });
+    return regular;
+}
+
+/// Vertices whose faces form more than one fan around them.
+FindingCounter survey_vertices(const TriangleMesh& mesh, const EdgeIndex& edges, bool regular) {
+    const std::vector<std::uint8_t> several =
+        regular ? vertices_of_several_fans_in_regular(mesh, edges) : vertices_of_several_fans(mesh, edges);
     FindingCounter counter(Finding::Kind::kNonManifoldVertex);
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-        if (several[v]) counter.add({v});
+        if (several[v] != 0) counter.add({v});
     }
     return counter;
 }
 
 FindingCounter survey_degenerate(const TriangleMesh& mesh) {
+    std::vector<std::uint8_t> degenerate(mesh.faces.size());
+    for_each_in_parallel(mesh.faces.size(), [&](std::size_t f) {
+        const Triangle& t = mesh.faces[f];
+        degenerate[f] = stretch(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]) < kDegenerateStretch ? 1 : 0;
+    });
     FindingCounter counter(Finding::Kind::kDegenerateFace);
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        const Triangle& t = mesh.faces[f];
-        if (stretch(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]) < kDegenerateStretch) counter.add({f});
+        if (degenerate[f] != 0) counter.add({f});
     }
     return counter;
 }
 
-FindingCounter survey_duplicates(const TriangleMesh& mesh) {
-    std::vector<std::pair<Triangle, std::uint32_t>> sorted(mesh.faces.size());
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        Triangle t = mesh.faces[f];
-        std::sort(t.begin(), t.end());
-        sorted[f] = {t, f};
-    }
-    std::sort(sorted.begin(), sorted.end());
+/// Faces with the same three vertices as an earlier one. They share their edge of the two smallest, and its third vertex.
+FindingCounter survey_duplicates(const TriangleMesh& mesh, const EdgeIndex& edges) {
     std::vector<std::uint32_t> repeats;
-    for (std::size_t i = 1; i < sorted.size(); ++i) {
-        if (sorted[i].first == sorted[i - 1].first) repeats.push_back(sorted[i].second);
-    }
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> third;  // and the face
+    edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
+        third.clear();
+        for (const auto* entry = first; entry != last; ++entry) {
+            const std::uint32_t opposite = origin(mesh, prev(entry->half_edge));
+            if (opposite >= first->b()) third.emplace_back(opposite, face_of(entry->half_edge));
+        }
+        if (third.size() < 2) return;
+        std::sort(third.begin(), third.end());
+        third.erase(std::unique(third.begin(), third.end()), third.end());  // a face may have an edge twice
+        for (std::size_t i = 1; i < third.size(); ++i) {
+            if (third[i].first == third[i - 1].first) repeats.push_back(third[i].second);
+        }
+    });
     std::sort(repeats.begin(), repeats.end());
     FindingCounter counter(Finding::Kind::kDuplicateFace);
     for (const std::uint32_t f : repeats) counter.add({f});
@@ -212,14 +275,16 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     MeshReport report;
     report.vertices = mesh.vertex_count();
     report.faces = mesh.face_count();
-    report.box = bounding_box(mesh);
     const EdgeIndex index(mesh);
-    report.quality = measure_quality(mesh, index);
-    EdgeSurvey edges = survey_edges(mesh, index);
-    FindingCounter vertices = survey_vertices(mesh, index);
+    EdgeSurvey edges;
+    FindingCounter vertices(Finding::Kind::kNonManifoldVertex), degenerate(Finding::Kind::kDegenerateFace),
+        duplicates(Finding::Kind::kDuplicateFace);
+    // Each looks at the mesh and writes what is its own.
+    tbb::parallel_invoke([&] { vertices = survey_vertices(mesh, index, is_regular(mesh, index)); },
+                         [&] { edges = survey_edges(mesh, index); }, [&] { duplicates = survey_duplicates(mesh, index); },
+                         [&] { degenerate = survey_degenerate(mesh); }, [&] { report.quality = measure_quality(mesh, index); },
+                         [&] { report.box = bounding_box(mesh); });
     report.boundary_touches = survey_touches(mesh, index, vertices);
-    FindingCounter degenerate = survey_degenerate(mesh);
-    FindingCounter duplicates = survey_duplicates(mesh);
     report.components = edges.components;
     report.boundary_edges = edges.boundary.count();
     report.non_manifold_edges = edges.non_manifold.count();

@@ -1,5 +1,8 @@
 #include "vsplit/quality/mesh_quality.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 #include "mesh/half_edges.h"
@@ -27,15 +30,20 @@ Quality measure_quality(const TriangleMesh& mesh, const EdgeIndex& edges) {
     Quality quality;
     quality.faces = mesh.face_count();
     if (mesh.faces.empty()) return quality;
-    std::vector<double> stretches(mesh.faces.size());
+    std::vector<double> stretches(mesh.faces.size()), sizes(mesh.faces.size());
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mesh.face_count(), 4096), [&](const auto& range) {
+        for (std::uint32_t f = range.begin(); f < range.end(); ++f) {
+            const auto [a, b, c] = corners(mesh, f);
+            stretches[f] = stretch(a, b, c);
+            sizes[f] = face_size(a, b, c);
+        }
+    });
     double sum = 0;
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        const auto [a, b, c] = corners(mesh, f);
-        const double s = stretch(a, b, c);
-        stretches[f] = s;
+        const double s = stretches[f];
         sum += s;
         quality.faces_below_02 += s < kStretchFloor ? 1 : 0;
-        quality.size_max = std::max(quality.size_max, face_size(a, b, c));
+        quality.size_max = std::max(quality.size_max, sizes[f]);
         ++quality.stretch_histogram[std::min<std::size_t>(static_cast<std::size_t>(s * 20), 19)];
     }
     quality.stretch_mean = sum / static_cast<double>(stretches.size());

@@ -12,6 +12,9 @@ namespace vsplit {
 /// collapse is not kept: the finest level is the mesh as it stands at the first collapse.
 class CollapseLog {
 public:
+    /// Makes room for so many collapses; memory is taken as it is used.
+    void reserve(std::size_t collapses) { entries_.reserve(collapses); }
+
     /// Call before the collapse, while the star still stands and all edits of the step before are made. O(moves since).
     void record(const HalfEdgeMesh& mesh, const EdgeStar& star);
 

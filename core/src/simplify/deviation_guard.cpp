@@ -41,16 +41,17 @@ bool DeviationGuard::stays_in_plane(const NewFace& f) const {
     return f.old_normal != Vec3::Zero() && std::abs(f.old_normal.dot(f.apex - f.b)) <= kNothing * limit_;
 }
 
-bool DeviationGuard::inside_reaches_source(const NewFace& f) const {
+/// Points that are tried one after the other are mostly near the same face of the source.
+bool DeviationGuard::is_near_source(const Vec3& point) { return source_.within(point, limit_, near_face_); }
+
+bool DeviationGuard::inside_reaches_source(const NewFace& f) {
     const Vec3 side = (f.b + f.c) / 2;
     const int steps = steps_along(std::max((f.apex - f.b).norm(), (f.apex - side).norm()));
     if (steps == 0 && stays_in_plane(f)) return true;
-    if (!source_.within((f.apex + f.b) / 2, limit_) || !source_.within((f.apex + f.b + f.c) / 3, limit_)) return false;
+    if (!is_near_source((f.apex + f.b) / 2) || !is_near_source((f.apex + f.b + f.c) / 3)) return false;
     for (int n = 0; n < steps; ++n) {
         const double share = (n + 0.5) / steps;
-        if (!source_.within(f.apex + share * (f.b - f.apex), limit_) || !source_.within(side + share * (f.apex - side), limit_)) {
-            return false;
-        }
+        if (!is_near_source(f.apex + share * (f.b - f.apex)) || !is_near_source(side + share * (f.apex - side))) return false;
     }
     return true;
 }
@@ -62,11 +63,11 @@ int DeviationGuard::steps_along(double length) const {
     return length > kLong * limit_ ? static_cast<int>(std::min(std::ceil(length / (kLong * limit_)), kMostSteps)) : 0;
 }
 
-bool DeviationGuard::reaches_source(std::span<const NewFace> faces) const {
+bool DeviationGuard::reaches_source(std::span<const NewFace> faces) {
     bool apex_tried = false;
     for (const NewFace& f : faces) {
         if (!apex_tried && !stays_in_plane(f)) {
-            if (!source_.within(f.apex, limit_)) return false;
+            if (!is_near_source(f.apex)) return false;
             apex_tried = true;
         }
         if (!inside_reaches_source(f)) return false;
@@ -75,11 +76,11 @@ bool DeviationGuard::reaches_source(std::span<const NewFace> faces) const {
 }
 
 /// The nearest of the faces to a point, or the first one found that is near enough, beginning with number `guess`.
-DeviationGuard::Nearest DeviationGuard::nearest_face(const Vec3& point, std::span<const NewFace> faces, std::size_t guess) const {
+DeviationGuard::Nearest DeviationGuard::nearest_face(const Vec3& point, std::size_t guess) const {
     constexpr double kNearEnough = 0.01;  // of the limit squared
     Nearest nearest;
-    for (std::size_t tried = 0, n = guess; tried < faces.size(); ++tried, n = n + 1 == faces.size() ? 0 : n + 1) {
-        const double square = TriangleShape{{faces[n].apex, faces[n].b, faces[n].c}}.closest(point).squared_distance;
+    for (std::size_t tried = 0, n = guess; tried < shapes_.size(); ++tried, n = n + 1 == shapes_.size() ? 0 : n + 1) {
+        const double square = shapes_[n].squared_distance(point, nearest.square);
         if (square < nearest.square) nearest = {n, square};
         if (square <= kNearEnough * limit_square_) break;
     }
@@ -88,10 +89,12 @@ DeviationGuard::Nearest DeviationGuard::nearest_face(const Vec3& point, std::spa
 
 bool DeviationGuard::reached_by_source(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces) {
     places_.clear();
+    shapes_.clear();
+    for (const NewFace& f : faces) shapes_.emplace_back(TriangleShape{{f.apex, f.b, f.c}});
     std::size_t guess = 0;  // points of a face are near each other
     for (const std::uint32_t old : old_faces) {
         for (std::uint32_t point = first_[old]; point != kNone; point = next_[point]) {
-            const Nearest nearest = nearest_face(points_[point], faces, guess);
+            const Nearest nearest = nearest_face(points_[point], guess);
             if (!(nearest.square <= limit_square_)) return false;
             guess = nearest.number;
             places_.push_back({point, faces[guess].face});

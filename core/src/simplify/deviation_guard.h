@@ -53,11 +53,12 @@ private:
         double square = std::numeric_limits<double>::infinity();
     };
 
-    [[nodiscard]] Nearest nearest_face(const Vec3& point, std::span<const NewFace> faces, std::size_t guess) const;
+    [[nodiscard]] Nearest nearest_face(const Vec3& point, std::size_t guess) const;
     [[nodiscard]] bool stays_in_plane(const NewFace& f) const;
     [[nodiscard]] int steps_along(double length) const;
-    [[nodiscard]] bool inside_reaches_source(const NewFace& f) const;
-    [[nodiscard]] bool reaches_source(std::span<const NewFace> faces) const;
+    [[nodiscard]] bool is_near_source(const Vec3& point);
+    [[nodiscard]] bool inside_reaches_source(const NewFace& f);
+    [[nodiscard]] bool reaches_source(std::span<const NewFace> faces);
     [[nodiscard]] bool reached_by_source(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces);
 
     std::unique_ptr<BorderGuard> border_;
@@ -65,9 +66,11 @@ private:
     const double limit_;
     const double limit_square_;
     std::vector<Vec3> points_;
-    std::vector<std::uint32_t> next_;   // of a point: the next one at its face, or kNone
-    std::vector<std::uint32_t> first_;  // of a face: its first point, or kNone
-    std::vector<Place> places_;         // where the points of old faces would go
+    std::vector<std::uint32_t> next_;       // of a point: the next one at its face, or kNone
+    std::vector<std::uint32_t> first_;      // of a face: its first point, or kNone
+    std::uint32_t near_face_ = kNone;       // of the source: the one found last
+    std::vector<PreparedTriangle> shapes_;  // of the new faces
+    std::vector<Place> places_;             // where the points of old faces would go
 };
 
 }  // namespace vsplit

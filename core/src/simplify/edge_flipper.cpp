@@ -161,13 +161,28 @@ void EdgeFlipper::flip_open_edges() {
     }
 }
 
+/// Whether nothing that flip_if_better looks at has changed since all edges were looked at: faces at the four vertices of the
+/// quad, which those across its sides are among.
+bool EdgeFlipper::is_as_refused(HalfEdge h) const {
+    if (!looked_at_all_) return false;
+    const HalfEdge g = mesh_.twin(h);
+    const auto last = [this](HalfEdge corner) { return mesh_.changed_at(mesh_.origin(corner)); };
+    return std::max({last(h), last(g), last(prev(h)), last(prev(g))}) <= *looked_at_all_;
+}
+
 void EdgeFlipper::flip_all() {
-    open_.clear();
-    for (HalfEdge h = mesh_.half_edge_count(); h-- > 0;) {
-        if (!mesh_.removed(h) && mesh_.edge_of(h) == h) open_.push_back(h);
-    }
-    flip_open_edges();
+    const std::uint32_t start = mesh_.clock();
     changed_.clear();
+    for (HalfEdge h = mesh_.half_edge_count(); h-- > 0;) {
+        if (!mesh_.removed(h) && mesh_.edge_of(h) == h) edges_.push_back(h);
+    }
+    for (; !edges_.empty(); edges_.pop_back()) {
+        if (is_as_refused(edges_.back())) continue;
+        open_ = {edges_.back()};
+        flip_open_edges();
+    }
+    changed_.clear();
+    looked_at_all_ = start;
 }
 
 void EdgeFlipper::flip_around(std::uint32_t v) {

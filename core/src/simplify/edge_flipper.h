@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "simplify/collapse_log.h"
@@ -24,7 +25,8 @@ public:
           creases_(mesh, state, guards.creases, limits.crease_cosine),
           limits_(limits) {}
 
-    /// All over the mesh, and again around what was flipped. Ends, since each flip betters the worse of two faces. O(faces).
+    /// All over the mesh, and again around what was flipped. Ends, since each flip betters the worse of two faces. What was
+    /// looked at before and has not changed since is left out: it would be refused again. O(faces).
     void flip_all();
 
     /// Among the edges of v and of its ring, and again around what was flipped. The faces that changed are in `changed_faces()`.
@@ -45,6 +47,7 @@ private:
 
     void flip_open_edges();
     [[nodiscard]] bool flip_if_better(HalfEdge h);
+    [[nodiscard]] bool is_as_refused(HalfEdge h) const;
     [[nodiscard]] bool is_beside_ghost(HalfEdge h) const;
     [[nodiscard]] bool may_flip(const Quad& quad) const;
     [[nodiscard]] bool keeps_bounds(const Quad& quad) const;
@@ -62,7 +65,9 @@ private:
     DeviationGuard* const guard_;
     CreaseReplacement creases_;
     const PolishLimits limits_;
-    std::vector<HalfEdge> open_;  // edges to look at, last first
+    std::vector<HalfEdge> edges_;                 // of flip_all, last first
+    std::vector<HalfEdge> open_;                  // edges to look at, last first
+    std::optional<std::uint32_t> looked_at_all_;  // the mesh's clock when flip_all began last
     std::vector<std::uint32_t> changed_;
 };
 

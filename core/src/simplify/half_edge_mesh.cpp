@@ -10,6 +10,7 @@ HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh, std::uint32_t ghosts)
       outgoing_(mesh.positions.size(), kNone),
       valence_(mesh.positions.size(), 0),
       positions_(mesh.positions),
+      changed_at_(mesh.positions.size(), 0),
       ghosts_(ghosts),
       live_faces_(mesh.face_count() - count_ghost_faces(mesh, ghosts)) {
     const std::vector<HalfEdge> twins = half_edge_twins(mesh);
@@ -83,6 +84,8 @@ void HalfEdgeMesh::flip(HalfEdge h) {
     outgoing_[b] = db;
     outgoing_[c] = g;
     outgoing_[d] = h;
+    ++clock_;
+    for (const std::uint32_t v : {a, b, c, d}) touch(v);
     --valence_[a];
     --valence_[b];
     ++valence_[c];

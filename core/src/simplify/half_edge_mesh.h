@@ -71,7 +71,23 @@ public:
     /// \pre both ends have valence 4 or more, and the vertices opposite have no edge yet. O(1).
     void flip(HalfEdge h);
 
-    void move(std::uint32_t v, const Vec3& to) { positions_[v] = to; }
+    /// O(valence).
+    void move(std::uint32_t v, const Vec3& to) {
+        positions_[v] = to;
+        touch_around(v);
+    }
+
+    /// Counts flips, moves and calls of touch_around.
+    [[nodiscard]] std::uint32_t clock() const { return clock_; }
+    /// The clock when a face at v changed last by one of these. A collapse leaves it to its caller, who has the ring at hand.
+    [[nodiscard]] std::uint32_t changed_at(std::uint32_t v) const { return changed_at_[v]; }
+    void touch(std::uint32_t v) { changed_at_[v] = clock_; }
+    /// All faces at v are others. O(valence).
+    void touch_around(std::uint32_t v) {
+        ++clock_;
+        touch(v);
+        for_each_outgoing(v, [this](HalfEdge h) { touch(target(h)); });
+    }
 
     /// Whether the edge of h is a crease. Edges that a collapse joins are one when either was; a flipped edge keeps its mark.
     [[nodiscard]] bool is_crease(HalfEdge h) const { return creases_[h] != 0; }
@@ -104,6 +120,8 @@ private:
     std::vector<HalfEdge> outgoing_;
     std::vector<std::uint32_t> valence_;
     std::vector<Vec3> positions_;
+    std::vector<std::uint32_t> changed_at_;
+    std::uint32_t clock_ = 0;
     std::uint32_t ghosts_ = 0;
     std::uint32_t live_faces_ = 0;
 };

@@ -25,5 +25,7 @@ struct LocalState {
 
 /// The state before the first collapse. O(faces).
 [[nodiscard]] LocalState initial_state(const SimplifyInput& input);
+/// The same, leaving neither mesh nor what goes over into the state behind: at this moment memory is at its fullest.
+[[nodiscard]] LocalState take_initial_state(SimplifyInput& input);
 
 }  // namespace vsplit

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "simplify/edge_flipper.h"
 #include "simplify/mender.h"
 #include "simplify/vertex_mover.h"
@@ -30,13 +32,17 @@ public:
     }
 
 private:
+    /// When a kind of move began its last round, by the mesh's clock.
+    using Start = std::optional<std::uint32_t>;
     template <class Move>
-    void move_all(const ExecutionContext& context, Move move);
+    void move_all(const ExecutionContext& context, Start& last, Move move);
+    [[nodiscard]] bool is_as_tried(std::uint32_t v, std::uint32_t start) const;
 
     HalfEdgeMesh& mesh_;
     EdgeFlipper flipper_;
     VertexMover mover_;
     Mender mender_;
+    Start relaxed_, lifted_;
 };
 
 }  // namespace vsplit

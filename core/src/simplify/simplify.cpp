@@ -55,7 +55,7 @@ public:
           policy_(policy),
           context_(context),
           mesh_(input_.mesh, input_.ghosts),
-          state_(initial_state(input_)),
+          state_(take_initial_state(input_)),
           queue_(mesh_.half_edge_count()),
           out_of_reach_(mesh_.half_edge_count(), 0),
           refusals_(mesh_.half_edge_count(), 0),
@@ -67,22 +67,28 @@ public:
           creases_(mesh_, state_, crease_guard_.get(), input_.crease_cosine),
           polisher_(mesh_, state_, log_, {guard_.get(), crease_guard_.get()}, limits_of(policy_, input_)) {
         mark_creases();
-        input_.mesh = {};
-        input_.normals = {};
-        input_.quadrics = {};
         input_.creases = {};
-        input_.sizes = {};
-        input_.boundary_corners = {};
+        log_.reserve((faces_start_ - std::min(faces_start_, input_.faces_min)) / 2 + 1);
     }
 
     [[nodiscard]] Expected<MultiresMesh> run() {
         Status done = Policy::kExtended ? collapse_and_polish() : mend_and_collapse();
         if (!done) return done.error();
         context_.report({"simplify", 1, mesh_.live_faces()});
+        let_go();
         return log_.build(mesh_, input_.ghosts);
     }
 
 private:
+    /// Leaves the mesh alone: the representation takes as much as the rest did.
+    void let_go() {
+        state_ = {};
+        queue_ = EdgeQueue(0);
+        guard_ = nullptr;
+        for (std::vector<std::uint8_t>* flags : {&out_of_reach_, &refusals_}) *flags = {};
+        visited_ = {};
+    }
+
     [[nodiscard]] static PolishLimits limits_of(const Policy& policy, const SimplifyInput& input) {
         PolishLimits limits{.centre = input.centre, .tolerance = input.tolerance, .crease_cosine = input.crease_cosine};
         if constexpr (requires { policy.max_valence; }) {
@@ -295,6 +301,7 @@ private:
         mesh_.collapse(star, evaluation.position);
         creases_.commit();
         update_faces(kept);
+        if constexpr (Policy::kExtended) mesh_.touch_around(kept);
         if constexpr (Policy::kExtended) flip_around(kept);
         requeue_around(kept);
     }

@@ -39,6 +39,14 @@ public:
         return search(p, upper_squared, -1);
     }
 
+    /// The same, `hint` being the index of a shape to try first, or any other number; becomes that of the shape found.
+    [[nodiscard]] bool within(const Vec3& p, double distance, std::uint32_t& hint) const {
+        if (hint < size() && shape(hint).closest(p).squared_distance <= distance * distance) return true;
+        const Hit hit = search(p, distance * distance, distance * distance);
+        if (hit.element != kNoElement) hint = hit.element;
+        return hit.element != kNoElement;
+    }
+
     /// Whether some shape is no further from `p` than `distance`. Often much quicker than `closest`.
     [[nodiscard]] bool within(const Vec3& p, double distance) const {
         return search(p, distance * distance, distance * distance).element != kNoElement;

@@ -42,35 +42,52 @@ std::array<HalfSpace, 2> SegmentShape::sides() const {
     return {half_space(-along, corners[0]), half_space(along, corners[1])};
 }
 
-Footpoint TriangleShape::closest(const Vec3& p) const {
-    const auto& [a, b, c] = corners;
-    const Vec3 ab = b - a;
-    const Vec3 ac = c - a;
-    const Vec3 ap = p - a;
-    const Vec3 normal = ab.cross(ac);
-    // Barycentric weights of the projection of p, times |normal|^2. Through the normal they keep a relative error of rounding
-    // over (height / length); the Gram determinants of the usual form would square that.
-    const double whole = normal.squaredNorm();
-    const double weight_b = normal.dot(ap.cross(ac));
-    const double weight_c = normal.dot(ab.cross(ap));
-    const double weight_a = whole - weight_b - weight_c;
-    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-    const bool thin = !(whole > kThin * longest * longest);
-    const double border = kBorder * whole;
-    const bool inside = weight_a > border && weight_b > border && weight_c > border;
+PreparedTriangle::PreparedTriangle(const TriangleShape& shape)
+    : a_(shape.corners[0]), b_(shape.corners[1]), c_(shape.corners[2]), ab_(b_ - a_), ac_(c_ - a_), normal_(ab_.cross(ac_)) {
+    whole_ = normal_.squaredNorm();
+    const double ab = ab_.squaredNorm(), ac = ac_.squaredNorm(), bc = (c_ - b_).squaredNorm();
+    const double longest = std::max({ab, ac, bc});
+    thin_ = !(whole_ > kThin * longest * longest);
+    border_ = kBorder * whole_;
+    far_ = {whole_ * bc, whole_ * ac, whole_ * ab};
+}
 
-    Footpoint best{ap.squaredNorm(), a};
+PreparedTriangle::Weights PreparedTriangle::weights(const Vec3& p) const {
+    const Vec3 ap = p - a_;
+    const double weight_b = normal_.dot(ap.cross(ac_));
+    const double weight_c = normal_.dot(ab_.cross(ap));
+    return {whole_ - weight_b - weight_c, weight_b, weight_c};
+}
+
+Footpoint PreparedTriangle::closest(const Vec3& p, const Weights& weight) const {
+    const bool inside = weight.a > border_ && weight.b > border_ && weight.c > border_;
+    Footpoint best{(p - a_).squaredNorm(), a_};
     if (inside) {
-        const Vec3 q = a + ab * (weight_b / whole) + ac * (weight_c / whole);
-        if (!thin) return {(p - q).squaredNorm(), q};
+        const Vec3 q = a_ + ab_ * (weight.b / whole_) + ac_ * (weight.c / whole_);
+        if (!thin_) return {(p - q).squaredNorm(), q};
         keep_nearer(best, {(p - q).squaredNorm(), q});
     }
     // From outside, the nearest point is on an edge whose line separates p's projection from the triangle.
-    if (thin || weight_c <= border) keep_nearer(best, closest_on_segment(a, b, p));
-    if (thin || weight_b <= border) keep_nearer(best, closest_on_segment(a, c, p));
-    if (thin || weight_a <= border) keep_nearer(best, closest_on_segment(b, c, p));
+    if (thin_ || weight.c <= border_) keep_nearer(best, closest_on_segment(a_, b_, p));
+    if (thin_ || weight.b <= border_) keep_nearer(best, closest_on_segment(a_, c_, p));
+    if (thin_ || weight.a <= border_) keep_nearer(best, closest_on_segment(b_, c_, p));
     return best;
 }
+
+bool PreparedTriangle::is_beyond(const Weights& weight, double most) const {
+    constexpr double kRounding = 1.001;
+    const auto beyond = [most](double w, double far) { return w < 0 && w * w > kRounding * most * far; };
+    return !thin_ && (beyond(weight.a, far_[0]) || beyond(weight.b, far_[1]) || beyond(weight.c, far_[2]));
+}
+
+Footpoint PreparedTriangle::closest(const Vec3& p) const { return closest(p, weights(p)); }
+
+double PreparedTriangle::squared_distance(const Vec3& p, double most) const {
+    const Weights weight = weights(p);
+    return is_beyond(weight, most) ? most : closest(p, weight).squared_distance;
+}
+
+Footpoint TriangleShape::closest(const Vec3& p) const { return PreparedTriangle(*this).closest(p); }
 
 std::array<HalfSpace, 3> TriangleShape::sides() const {
     const auto& [a, b, c] = corners;

@@ -46,4 +46,34 @@ struct TriangleShape {
     [[nodiscard]] std::array<HalfSpace, kCorners> sides() const;
 };
 
+/// A triangle that many points are measured to: what depends on it alone is found once. Says what TriangleShape says, bit for
+/// bit.
+class PreparedTriangle {
+public:
+    explicit PreparedTriangle(const TriangleShape& shape);
+
+    [[nodiscard]] Footpoint closest(const Vec3& p) const;
+
+    /// The squared distance to p where it is less than `most`; else that, or anything from `most` on.
+    [[nodiscard]] double squared_distance(const Vec3& p, double most) const;
+
+private:
+    /// Barycentric weights of the projection of p, times |normal|^2. Through the normal they keep a relative error of rounding
+    /// over (height / length); the Gram determinants of the usual form would square that.
+    struct Weights {
+        double a, b, c;
+    };
+    [[nodiscard]] Weights weights(const Vec3& p) const;
+    [[nodiscard]] Footpoint closest(const Vec3& p, const Weights& weights) const;
+    /// Whether p lies further than the root of `most` beyond the line of an edge, by what is far over any rounding.
+    [[nodiscard]] bool is_beyond(const Weights& weights, double most) const;
+
+    Vec3 a_, b_, c_, ab_, ac_;
+    Vec3 normal_;
+    double whole_ = 0;   // |normal|^2
+    double border_ = 0;  // weights up to this are taken for none
+    bool thin_ = false;
+    std::array<double, 3> far_;  // of a, b, c: what a weight's square is at a distance of 1 beyond the edge opposite
+};
+
 }  // namespace vsplit
