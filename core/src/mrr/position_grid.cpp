@@ -90,12 +90,10 @@ Vec3 PositionGrid::snap(const Vec3& position) const {
     return snapped;
 }
 
-MultiresMesh on_grid(const MultiresMesh& mrr, const PositionGrid& grid) {
-    MultiresMesh result = mrr;
-    for (Vec3& position : result.base.positions) position = grid.snap(position);
-    RecordList records;
-    records.reserve(mrr.records.splits().size(), mrr.records.flips().size(), mrr.records.moves().size());
-    for_each_record(mrr.records, [&](auto record) {
+RecordList on_grid(const RecordSpan& records, const PositionGrid& grid) {
+    RecordList rounded;
+    rounded.reserve(records.splits.size(), records.flips.size(), records.moves.size());
+    for_each_record(records, [&](auto record) {
         using AnyRecord = decltype(record);
         if constexpr (std::is_same_v<AnyRecord, VertexSplit>) {
             record.kept = grid.snap(record.kept);
@@ -103,9 +101,14 @@ MultiresMesh on_grid(const MultiresMesh& mrr, const PositionGrid& grid) {
         } else if constexpr (std::is_same_v<AnyRecord, VertexMove>) {
             record.position = grid.snap(record.position);
         }
-        records.push_back(record);
+        rounded.push_back(record);
     });
-    result.records = std::move(records);
+    return rounded;
+}
+
+MultiresMesh on_grid(const MultiresMesh& mrr, const PositionGrid& grid) {
+    MultiresMesh result{mrr.base, on_grid(mrr.records, grid), mrr.ghosts, mrr.ghost_faces, mrr.border_splits};
+    for (Vec3& position : result.base.positions) position = grid.snap(position);
     return result;
 }
 

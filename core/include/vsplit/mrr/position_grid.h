@@ -68,6 +68,9 @@ private:
     double step_ = 0;
 };
 
+/// Records with every position snapped. O(records).
+[[nodiscard]] RecordList on_grid(const RecordSpan& records, const PositionGrid& grid);
+
 /// `mrr` with every position snapped: what a client of this encoding builds. O(records).
 [[nodiscard]] MultiresMesh on_grid(const MultiresMesh& mrr, const PositionGrid& grid);
 
