@@ -272,7 +272,8 @@ void ProgressiveMesh::undo_split() {
     mesh_.faces.resize(mesh_.faces.size() - 2);
     mesh_.positions.pop_back();
     corner_of_.pop_back();
-    corner_of_[v] = fan_begin;  // no other vertex's corner was made by the split
+    // A flip may have left e or b with a corner of the faces that go.
+    for (const HalfEdge corner : {fan_begin, fan_end, before}) corner_of_[origin(mesh_, corner)] = corner;
     mesh_.positions[v] = lay_.back();
     lay_.pop_back();
     --level_;
