@@ -20,11 +20,25 @@ class BlockCoder {
 public:
     BlockCoder(Symbols symbols, const Codes& codes, ProgressiveMesh& mesh) : symbols_(symbols), codes_(codes), mesh_(mesh) {}
 
+    /// Reading only: takes the places of all splits of the block at once, so that the mesh around the next ones can be fetched from
+    /// memory while one is decoded. Beyond the caches that is most of the time.
+    void read_places(std::size_t splits) {
+        places_.resize(splits);
+        std::uint32_t count = mesh_.mesh().vertex_count();
+        for (std::uint32_t& place : places_) place = read_place(count++);
+        for (std::size_t n = 0; n < std::min(splits, kAhead); ++n) send_ahead(n);
+    }
+
     /// Writing: takes the record and rounds its positions. Reading: fills it in. \return CORRUPT where it does not fit.
     Status code(VertexSplit& split) {
         std::uint32_t vertex = 0;
-        if constexpr (Symbols::kWrites) vertex = origin(mesh_.mesh(), split.anchor);
-        if (!code_place(vertex)) return bad("a vertex that is not there");
+        if constexpr (Symbols::kWrites) {
+            vertex = origin(mesh_.mesh(), split.anchor);
+            write_place(vertex);
+        } else {
+            vertex = next_place();
+            if (vertex >= mesh_.mesh().vertex_count()) return bad("a vertex that is not there");
+        }
         star_.gather(mesh_, vertex);
         if (!code_fan(split)) return bad("a fan that is none of the vertex");
         code_positions(split);
@@ -63,27 +77,63 @@ public:
 private:
     static constexpr std::uint32_t kBeside = 128;  // symbols from here on name a vertex beside the record before
     static constexpr std::uint32_t kMostCodedFan = 10;
+    static constexpr std::uint32_t kIsBeside = 0xFFFFFF00U;
+    static constexpr std::size_t kAhead = 16;
 
     static Status bad(const char* what) { return Error{Cause::kCorrupt, what, ""}; }
 
-    bool code_place(std::uint32_t& vertex) {
-        const std::uint32_t count = mesh_.mesh().vertex_count();
-        const unsigned low = low_bits(count);
-        std::uint32_t symbol = 0;
-        if constexpr (Symbols::kWrites) {
-            const auto rank = static_cast<std::uint32_t>(std::find(beside_.begin(), beside_.end(), vertex) - beside_.begin());
-            symbol = rank < beside_.size() ? kBeside + rank : vertex >> low;
-        }
+    void write_place(std::uint32_t vertex) {
+        const unsigned low = low_bits(mesh_.mesh().vertex_count());
+        const auto rank = static_cast<std::uint32_t>(std::find(beside_.begin(), beside_.end(), vertex) - beside_.begin());
+        std::uint32_t symbol = rank < beside_.size() ? kBeside + rank : vertex >> low;
         symbols_.byte(column::kPlace, symbol);
-        if (symbol >= kBeside) {
-            if (symbol - kBeside >= beside_.size()) return false;
-            vertex = beside_[symbol - kBeside];
-            return true;
-        }
         std::uint32_t rest = vertex & ((1U << low) - 1);
-        symbols_.bits(rest, low);
-        vertex = symbol << low | rest;
-        return vertex < count;
+        if (symbol < kBeside) symbols_.bits(column::kPlaceBits, rest, low);
+    }
+
+    /// A vertex, or kIsBeside + its place in the list of those beside the record before.
+    std::uint32_t read_place(std::uint32_t count) {
+        std::uint32_t symbol = 0, rest = 0;
+        symbols_.byte(column::kPlace, symbol);
+        if (symbol >= kBeside) return kIsBeside + (symbol - kBeside);
+        const unsigned low = low_bits(count);
+        symbols_.bits(column::kPlaceBits, rest, low);
+        return symbol << low | rest;
+    }
+
+    /// kNone where there is no such vertex.
+    std::uint32_t next_place() {
+        if (next_ + kAhead < places_.size()) send_ahead(next_ + kAhead);
+        for (Walker& walker : walkers_) step(walker);
+        const std::uint32_t place = places_[next_++];
+        if (place < kIsBeside) return place;
+        return place - kIsBeside < beside_.size() ? beside_[place - kIsBeside] : kNone;
+    }
+
+    /// Walks around a vertex that is split later, a step a record, and asks for the memory of the next step. The mesh changes under
+    /// it, so it may miss something; it reads nothing that is not there.
+    struct Walker {
+        std::uint32_t vertex = kNone;
+        HalfEdge corner = kNone;
+    };
+
+    void send_ahead(std::size_t n) {
+        Walker& walker = walkers_[n % kAhead];
+        walker = {};
+        if (places_[n] >= mesh_.mesh().vertex_count()) return;
+        walker.vertex = places_[n];
+        mesh_.prefetch_vertex(walker.vertex);
+    }
+
+    void step(Walker& walker) {
+        if (walker.vertex == kNone) return;
+        if (walker.corner == kNone) {
+            walker.corner = mesh_.corner_of(walker.vertex);
+        } else {
+            mesh_.prefetch_vertex(origin(mesh_.mesh(), next(walker.corner)));
+            walker.corner = mesh_.twins()[prev(walker.corner)];
+        }
+        mesh_.prefetch_corner(walker.corner);
     }
 
     /// Where the fan that goes over begins and how many faces it has; leaves the star turned to its beginning.
@@ -179,6 +229,9 @@ private:
     ProgressiveMesh& mesh_;
     Star star_;
     std::vector<std::uint32_t> beside_;
+    std::vector<std::uint32_t> places_;
+    std::size_t next_ = 0;
+    std::array<Walker, kAhead> walkers_{};
     std::uint32_t last_moved_ = kNone;  // so that the first move counts from vertex 0
     bool in_range_ = true;
 };

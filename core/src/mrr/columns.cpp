@@ -46,27 +46,25 @@ private:
 
 }  // namespace
 
-void ColumnWriter::bits(std::uint32_t value, unsigned width) {
-    pending_ |= std::uint64_t{value} << pending_bits_;
-    pending_bits_ += width;
-    for (; pending_bits_ >= 8; pending_bits_ -= 8, pending_ >>= 8U) packed_bits_.push_back(static_cast<char>(pending_ & 0xFFU));
+void ColumnWriter::bits(unsigned column, std::uint32_t value, unsigned width) {
+    Bits& to = bits_[column - column::kBits];
+    to.pending |= std::uint64_t{value} << to.width;
+    to.width += width;
+    for (; to.width >= 8; to.width -= 8, to.pending >>= 8U) to.packed.push_back(static_cast<char>(to.pending & 0xFFU));
 }
 
 void ColumnWriter::number(unsigned column, std::uint32_t value) {
     const Token token = Token::of(value);
     byte(column, token.symbol);
-    bits(token.rest, token.bits);
+    bits(column::kBits, token.rest, token.bits);
 }
 
 void ColumnWriter::clear() {
     for (std::string& column : columns_) column.clear();
-    packed_bits_.clear();
-    pending_ = 0;
-    pending_bits_ = 0;
+    bits_ = {};
 }
 
 void ColumnWriter::pack(std::string& payload) {
-    if (pending_bits_ > 0) bits(0, 8 - pending_bits_);
     std::string compressed;
     const auto put = [&payload](unsigned number, bool is_compressed, const std::string& bytes) {
         payload.push_back(static_cast<char>(number));
@@ -82,7 +80,11 @@ void ColumnWriter::pack(std::string& payload) {
         if (shorter) compressed.resize(size);
         put(c, shorter, shorter ? compressed : columns_[c]);
     }
-    if (!packed_bits_.empty()) put(column::kBits, false, packed_bits_);
+    for (unsigned c = column::kBits; c < column::kAll; ++c) {
+        const Bits& of = bits_[c - column::kBits];
+        if (of.width > 0) bits(c, 0, 8 - of.width);
+        if (!of.packed.empty()) put(c, false, of.packed);
+    }
 }
 
 Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most) {
@@ -99,8 +101,8 @@ Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most
         next.column = static_cast<std::uint8_t>(reader.take(1).front());
         std::size_t size = 0;
         if (!reader.varint(size) || size / 2 > reader.left()) return corrupt("a column does not end where its block does");
-        if (next.column > column::kBits || (!stored.empty() && next.column <= stored.back().column))
-            return corrupt("column " + std::to_string(next.column) + " where a higher one up to 144 is due");
+        if (next.column >= column::kAll || (!stored.empty() && next.column <= stored.back().column))
+            return corrupt("column " + std::to_string(next.column) + " where a higher one up to 145 is due");
         next.compressed = size % 2 != 0;
         next.bytes = reader.take(size / 2);
         const unsigned long long content =
@@ -114,8 +116,7 @@ Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most
         stored.push_back(next);
     }
     columns_ = {};
-    pending_ = 0;
-    pending_bits_ = 0;
+    pending_ = {};
     short_ = false;
     unpacked_.resize(total);
     std::uint8_t* to = unpacked_.data();
@@ -133,7 +134,7 @@ Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most
 }
 
 bool ColumnReader::all_read() const {
-    return pending_ == 0 && pending_bits_ < 8 &&
+    return std::all_of(pending_.begin(), pending_.end(), [](const Pending& at) { return at.bits == 0 && at.width < 8; }) &&
            std::all_of(columns_.begin(), columns_.end(), [](const Cursor& at) { return at.next == at.end; });
 }
 

@@ -28,7 +28,9 @@ inline constexpr unsigned kAcross = 48;    // + scale: the coordinate across it
 inline constexpr unsigned kMoveAlong = 80;
 inline constexpr unsigned kMoveAcross = 112;
 inline constexpr unsigned kCount = 144;
-inline constexpr unsigned kBits = 144;  // bits that no code shortens, in the order they are read
+inline constexpr unsigned kBits = 144;       // bits that no code shortens, in the order they are read
+inline constexpr unsigned kPlaceBits = 145;  // those of places: who decodes sees ahead where the next records are
+inline constexpr unsigned kAll = 146;
 }  // namespace column
 
 /// Whole numbers as a byte and, beyond 15, bits: the byte says how many bits there are and which the first three are.
@@ -70,8 +72,8 @@ struct Token {
 class ColumnWriter {
 public:
     void byte(unsigned column, std::uint8_t symbol) { columns_[column].push_back(static_cast<char>(symbol)); }
-    /// \pre width <= 32, value < 2^width.
-    void bits(std::uint32_t value, unsigned width);
+    /// Column kBits or kPlaceBits. \pre width <= 32, value < 2^width.
+    void bits(unsigned column, std::uint32_t value, unsigned width);
     void number(unsigned column, std::uint32_t value);
     void clear();
 
@@ -80,9 +82,12 @@ public:
 
 private:
     std::array<std::string, column::kCount> columns_;
-    std::string packed_bits_;
-    std::uint64_t pending_ = 0;
-    unsigned pending_bits_ = 0;
+    struct Bits {
+        std::string packed;
+        std::uint64_t pending = 0;
+        unsigned width = 0;
+    };
+    std::array<Bits, column::kAll - column::kBits> bits_;
     struct Free {
         void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
     };
@@ -103,22 +108,23 @@ public:
         }
         return *at.next++;
     }
-    /// \pre width <= 32.
-    [[nodiscard]] std::uint32_t bits(unsigned width) {
-        while (pending_bits_ < width) {
-            Cursor& at = columns_[column::kBits];
+    /// Column kBits or kPlaceBits. \pre width <= 32.
+    [[nodiscard]] std::uint32_t bits(unsigned column, unsigned width) {
+        Pending& pending = pending_[column - column::kBits];
+        while (pending.width < width) {
+            Cursor& at = columns_[column];
             std::uint64_t more = 0;
             if (at.next == at.end) {
                 short_ = true;
             } else {
                 more = *at.next++;
             }
-            pending_ |= more << pending_bits_;
-            pending_bits_ += 8;
+            pending.bits |= more << pending.width;
+            pending.width += 8;
         }
-        const auto value = static_cast<std::uint32_t>(pending_ & ((std::uint64_t{1} << width) - 1));
-        pending_ >>= width;
-        pending_bits_ -= width;
+        const auto value = static_cast<std::uint32_t>(pending.bits & ((std::uint64_t{1} << width) - 1));
+        pending.bits >>= width;
+        pending.width -= width;
         return value;
     }
     [[nodiscard]] std::uint32_t number(unsigned column) {
@@ -142,13 +148,16 @@ private:
     };
     [[nodiscard]] std::uint32_t large_number(std::uint8_t symbol) {
         if (symbol > Token::kLargest) short_ = true;
-        return Token::value(symbol, bits(Token::bits_after(symbol)));
+        return Token::value(symbol, bits(column::kBits, Token::bits_after(symbol)));
     }
 
-    std::array<Cursor, column::kCount + 1> columns_{};
+    std::array<Cursor, column::kAll> columns_{};
     std::vector<std::uint8_t> unpacked_;
-    std::uint64_t pending_ = 0;
-    unsigned pending_bits_ = 0;
+    struct Pending {
+        std::uint64_t bits = 0;
+        unsigned width = 0;
+    };
+    std::array<Pending, column::kAll - column::kBits> pending_{};
     bool short_ = false;
     struct Free {
         void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }

@@ -92,6 +92,7 @@ Status RecordCodec::Impl::read(const RecordBlock& block, ProgressiveMesh& mesh, 
     mesh.reserve(static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), 0)),
                  static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), 1)),
                  static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), 2)));
+    coder.read_places(static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), 0)));
     for (std::size_t n = 0; n < kinds.size(); ++n) {
         static_cast<void>(reader.byte(column::kKinds));
         const Status taken = kinds[n] == 0   ? take(VertexSplit())

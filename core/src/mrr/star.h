@@ -89,13 +89,15 @@ struct StarFrame {
         if (std::abs(normal[1]) > std::abs(normal[across])) across = 1;
         if (std::abs(normal[2]) > std::abs(normal[across])) across = 2;
         if (!has_plane()) return;
-        for (std::uint32_t n = 0; n < valence; ++n) thickness = std::max(thickness, std::abs(height(star[n].offset)));
+        for (std::uint32_t n = 0; n < valence; ++n) thickness = std::max(thickness, std::abs(dot(star[n].offset)));
+        thickness /= std::abs(normal[across]);
     }
     [[nodiscard]] bool has_plane() const { return normal[across] != 0; }
     /// Over the plane, along `across`. \pre has_plane().
-    [[nodiscard]] double height(const Offset& d) const {
-        return (normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2]) / normal[across];
-    }
+    [[nodiscard]] double height(const Offset& d) const { return dot(d) / normal[across]; }
+
+private:
+    [[nodiscard]] double dot(const Offset& d) const { return normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2]; }
 };
 
 }  // namespace vsplit

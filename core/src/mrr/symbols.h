@@ -13,7 +13,7 @@ public:
     static constexpr bool kWrites = true;
     explicit SymbolWriter(ColumnWriter& columns) : columns_(columns) {}
     void byte(unsigned column, std::uint32_t& value) { columns_.byte(column, static_cast<std::uint8_t>(value)); }
-    void bits(std::uint32_t& value, unsigned width) { columns_.bits(value, width); }
+    void bits(unsigned column, std::uint32_t& value, unsigned width) { columns_.bits(column, value, width); }
     void number(unsigned column, std::uint32_t& value) { columns_.number(column, value); }
     [[nodiscard]] static bool ran_short() { return false; }
 
@@ -27,7 +27,7 @@ public:
     static constexpr bool kWrites = false;
     explicit SymbolReader(ColumnReader& columns) : columns_(columns) {}
     void byte(unsigned column, std::uint32_t& value) { value = columns_.byte(column); }
-    void bits(std::uint32_t& value, unsigned width) { value = columns_.bits(width); }
+    void bits(unsigned column, std::uint32_t& value, unsigned width) { value = columns_.bits(column, width); }
     void number(unsigned column, std::uint32_t& value) { value = columns_.number(column); }
     [[nodiscard]] bool ran_short() const { return columns_.ran_short(); }
 
@@ -42,7 +42,7 @@ void code_uniform(Symbols& symbols, unsigned column, std::uint32_t& value, std::
     std::uint32_t high = value >> low;
     std::uint32_t rest = value & ((1U << low) - 1);
     symbols.byte(column, high);
-    symbols.bits(rest, low);
+    symbols.bits(column::kBits, rest, low);
     value = high << low | rest;
 }
 

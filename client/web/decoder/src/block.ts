@@ -94,7 +94,7 @@ export class RecordDecoder {
     const count = mesh.vertexCount;
     const width = 32 - Math.clz32(count - 1);
     const low = width > 7 ? width - 7 : 0;
-    const vertex = ((symbol << low) | this.columns.bits(low)) >>> 0;
+    const vertex = ((symbol << low) | this.columns.bits(low, Column.PlaceBits)) >>> 0;
     if (vertex >= count) throw new CorruptError("a vertex that is not there");
     return vertex;
   }

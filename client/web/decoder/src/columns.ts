@@ -14,6 +14,7 @@ export const enum Column {
   MoveAlong = 80,
   MoveAcross = 112,
   Bits = 144,
+  PlaceBits = 145,
 }
 
 const largestToken = 16 + 27 * 8 + 7;
@@ -36,10 +37,11 @@ function frameContentSize(frame: Uint8Array): number {
 /** Gives the symbols of a payload back. Reading beyond the end of a column gives 0 and is remembered in `short`. */
 export class ColumnReader {
   short = false;
-  private readonly columns: Uint8Array[] = new Array<Uint8Array>(Column.Bits + 1).fill(nothing);
-  private readonly at = new Int32Array(Column.Bits + 1);
-  private bitAt = 0;
-  private bitCount = 0;
+  private readonly columns: Uint8Array[] = new Array<Uint8Array>(Column.PlaceBits + 1).fill(nothing);
+  private readonly at = new Int32Array(Column.Bits);
+  // Of Bits and PlaceBits.
+  private readonly bitAt = [0, 0];
+  private readonly bitCount = [0, 0];
 
   /** `most`: bytes that the columns may unpack to. */
   constructor(payload: Uint8Array, most: number) {
@@ -48,7 +50,7 @@ export class ColumnReader {
     let next = 0;
     while (next < payload.length) {
       const column = payload[next++]!;
-      if (column > Column.Bits || column <= last) throw new CorruptError(`column ${column} where a higher one up to 144 is due`);
+      if (column > Column.PlaceBits || column <= last) throw new CorruptError(`column ${column} where a higher one up to 145 is due`);
       last = column;
       let size = 0;
       let shift = 1;
@@ -68,11 +70,13 @@ export class ColumnReader {
       total += content;
       this.columns[column] = compressed ? unpack(stored, content, column) : stored;
     }
-    const bits = this.columns[Column.Bits]!;
-    const padded = new Uint8Array(bits.length + 8);
-    padded.set(bits);
-    this.columns[Column.Bits] = padded;
-    this.bitCount = 8 * bits.length;
+    for (const column of [Column.Bits, Column.PlaceBits]) {
+      const bits = this.columns[column]!;
+      const padded = new Uint8Array(bits.length + 8);
+      padded.set(bits);
+      this.columns[column] = padded;
+      this.bitCount[column - Column.Bits] = 8 * bits.length;
+    }
   }
 
   byte(column: number): number {
@@ -87,15 +91,16 @@ export class ColumnReader {
   }
 
   /** `width` is at most 32. */
-  bits(width: number): number {
+  bits(width: number, column: number = Column.Bits): number {
     if (width === 0) return 0;
-    const begin = this.bitAt;
-    this.bitAt = begin + width;
-    if (this.bitAt > this.bitCount) {
+    const stream = column - Column.Bits;
+    const begin = this.bitAt[stream]!;
+    this.bitAt[stream] = begin + width;
+    if (begin + width > this.bitCount[stream]!) {
       this.short = true;
       return 0;
     }
-    const bytes = this.columns[Column.Bits]!;
+    const bytes = this.columns[column]!;
     const at = begin >>> 3;
     const shift = begin & 7;
     const four = bytes[at]! | (bytes[at + 1]! << 8) | (bytes[at + 2]! << 16) | (bytes[at + 3]! << 24);
@@ -133,8 +138,11 @@ export class ColumnReader {
     for (let column = 0; column < Column.Bits; ++column) {
       if (this.at[column] !== this.columns[column]!.length) return false;
     }
-    const left = this.bitCount - this.bitAt;
-    return left >= 0 && left < 8 && this.bits(left) === 0;
+    for (const column of [Column.Bits, Column.PlaceBits]) {
+      const left = this.bitCount[column - Column.Bits]! - this.bitAt[column - Column.Bits]!;
+      if (left < 0 || left >= 8 || this.bits(left, column) !== 0) return false;
+    }
+    return true;
   }
 }
 

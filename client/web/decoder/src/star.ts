@@ -111,13 +111,12 @@ export class Star {
     this.hasPlane = normal[this.across]! !== 0;
     this.thickness = 0;
     if (!this.hasPlane) return;
-    const w = normal[this.across]!;
     let thickness = 0;
     for (let n = 0; n < valence; ++n) {
-      const height = Math.abs((n0 * x[n]! + n1 * y[n]! + n2 * z[n]!) / w);
+      const height = Math.abs(n0 * x[n]! + n1 * y[n]! + n2 * z[n]!);
       if (height > thickness) thickness = height;
     }
-    this.thickness = thickness;
+    this.thickness = thickness / Math.abs(normal[this.across]!);
   }
 
   height(dx: number, dy: number, dz: number): number {
