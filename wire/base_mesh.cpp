@@ -81,8 +81,8 @@ PackedBaseMesh pack_base_mesh(const MultiresMesh& mrr, const PositionGrid& grid)
     for (Vec3& position : base.positions) position = grid.snap(position);
     double largest = 0;
     for_each_position(mrr, [&largest](const Vec3& p) { largest = std::max(largest, p.cwiseAbs().maxCoeff()); });
-    PackedBaseMesh packed{pack_base(base, mrr.ghosts, grid), 0,    base.vertex_count(), base.face_count(),
-                          mrr.ghosts,                        grid, grid.max_error(largest)};
+    PackedBaseMesh packed{
+        pack_base(base, mrr.ghosts, grid), 0, base.vertex_count(), base.face_count(), mrr.ghosts, grid, grid.max_error(largest)};
     packed.crc32c = crc32c(std::as_bytes(std::span(packed.bytes)));
     return packed;
 }

@@ -86,7 +86,8 @@ std::size_t meshoptimizer_bytes(const TriangleMesh& mesh) {
     std::vector<unsigned> indices;
     for (const Triangle& face : mesh.faces) indices.insert(indices.end(), face.begin(), face.end());
     meshopt_optimizeVertexCache(indices.data(), indices.data(), indices.size(), vertices.size());
-    meshopt_optimizeVertexFetch(vertices.data(), indices.data(), indices.size(), vertices.data(), vertices.size(), sizeof(Vertex));
+    meshopt_optimizeVertexFetch(vertices.data(), indices.data(), indices.size(), vertices.data(), vertices.size(),
+                                sizeof(Vertex));
     std::vector<unsigned char> buffer(std::max(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(Vertex)),
                                                meshopt_encodeIndexBufferBound(indices.size(), vertices.size())));
     return meshopt_encodeVertexBuffer(buffer.data(), buffer.size(), vertices.data(), vertices.size(), sizeof(Vertex)) +
@@ -94,9 +95,10 @@ std::size_t meshoptimizer_bytes(const TriangleMesh& mesh) {
 }
 
 void print_encodings(const std::string& name, const MultiresMesh& mrr) {
-    for (const auto& [text, choice] :
-         {std::pair("FLOAT64", EncodingChoice{RecordEncoding::kFloat64, 0}), {"FLOAT32", {RecordEncoding::kFloat32, 0}},
-          {"QUANTISED 16", {RecordEncoding::kQuantised, 16}}, {"QUANTISED 14", {RecordEncoding::kQuantised, 14}}}) {
+    for (const auto& [text, choice] : {std::pair("FLOAT64", EncodingChoice{RecordEncoding::kFloat64, 0}),
+                                       {"FLOAT32", {RecordEncoding::kFloat32, 0}},
+                                       {"QUANTISED 16", {RecordEncoding::kQuantised, 16}},
+                                       {"QUANTISED 14", {RecordEncoding::kQuantised, 14}}}) {
         const Figures f = measure(mrr, choice, mrr.levels());
         const auto splits = static_cast<double>(mrr.levels());
         std::printf("| %s | %s | %u | %zu | %.1f | %.2f | %.2f | %.2f |\n", name.c_str(), text, mrr.faces_max(), mrr.levels(),
@@ -163,11 +165,13 @@ int main(int count, char** arguments) {
         print_stream(all.front().second);
         return 0;
     }
-    std::printf("| Representation | Encoding | Faces | Splits | Base, bytes a vertex | Bytes a split | Encode, M splits/s | "
-                "Decode and apply, M splits/s |\n|---|---|--:|--:|--:|--:|--:|--:|\n");
+    std::printf(
+        "| Representation | Encoding | Faces | Splits | Base, bytes a vertex | Bytes a split | Encode, M splits/s | "
+        "Decode and apply, M splits/s |\n|---|---|--:|--:|--:|--:|--:|--:|\n");
     for (const auto& [name, mrr] : all) print_encodings(name, mrr);
-    std::printf("\n| Mesh | Faces | Binary STL | Binary PLY (doubles) | meshoptimizer, 14 bit | Draco, 14 bit | Records, 14 bit | "
-                "Records / Draco |\n|---|--:|--:|--:|--:|--:|--:|--:|\n");
+    std::printf(
+        "\n| Mesh | Faces | Binary STL | Binary PLY (doubles) | meshoptimizer, 14 bit | Draco, 14 bit | Records, 14 bit | "
+        "Records / Draco |\n|---|--:|--:|--:|--:|--:|--:|--:|\n");
     for (const auto& [name, mrr] : all) print_whole(name, mrr, 30'000);
     return 0;
 }

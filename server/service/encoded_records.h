@@ -34,8 +34,8 @@ private:
 
     const MultiresMesh& mrr_;
     const PositionGrid grid_;
-    mutable std::mutex mutex_;      // of the blocks
-    std::mutex making_;             // of what makes them; taken first
+    mutable std::mutex mutex_;             // of the blocks
+    std::mutex making_;                    // of what makes them; taken first
     std::map<std::size_t, Block> blocks_;  // by first record
     std::set<std::size_t> begins_;         // where blocks usually begin, beside the multiples
     RecordCodec codec_;

@@ -16,7 +16,11 @@ constexpr std::size_t kKeptEncodings = 2;
 }  // namespace
 
 Representation::Representation(std::string id, MeshRef source, MethodResult result)
-    : id_(std::move(id)), source_(std::move(source)), result_(std::move(result)), meshes_(kCachedMeshes), encoded_(kKeptEncodings) {}
+    : id_(std::move(id)),
+      source_(std::move(source)),
+      result_(std::move(result)),
+      meshes_(kCachedMeshes),
+      encoded_(kKeptEncodings) {}
 
 std::size_t Representation::level_for(std::uint32_t faces) const { return mrr().level_for(faces == 0 ? result_.faces : faces); }
 

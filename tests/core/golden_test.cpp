@@ -82,10 +82,12 @@ std::vector<std::pair<std::string, std::string>> all_golden() {
                                            {"open", punctured(torus(16, 10), {0, 35, 70, 105})}};
     for (const NamedMesh& named : meshes) {
         const MultiresMesh mrr = edited_mrr(named.mesh, 150, 7).mrr;
-        for (const auto& [name, choice] :
-             {std::pair("float64", EncodingChoice{RecordEncoding::kFloat64, 0}), {"float32", {RecordEncoding::kFloat32, 0}},
-              {"quantised10", {RecordEncoding::kQuantised, 10}}, {"quantised14", {RecordEncoding::kQuantised, 14}},
-              {"quantised16", {RecordEncoding::kQuantised, 16}}, {"quantised24", {RecordEncoding::kQuantised, 24}}})
+        for (const auto& [name, choice] : {std::pair("float64", EncodingChoice{RecordEncoding::kFloat64, 0}),
+                                           {"float32", {RecordEncoding::kFloat32, 0}},
+                                           {"quantised10", {RecordEncoding::kQuantised, 10}},
+                                           {"quantised14", {RecordEncoding::kQuantised, 14}},
+                                           {"quantised16", {RecordEncoding::kQuantised, 16}},
+                                           {"quantised24", {RecordEncoding::kQuantised, 24}}})
             files.emplace_back(std::string("records_1_") + name + "_" + named.name + ".golden", write_golden(mrr, choice));
         files.emplace_back("file_1_" + named.name + ".vsplit", encode_mrr({mrr, mrr.faces_min(), "{}"}));
     }

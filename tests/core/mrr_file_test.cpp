@@ -1,5 +1,3 @@
-#include "vsplit/mrr/base_codec.h"
-#include "vsplit/mrr/record_codec.h"
 #include "vsplit/mrr/mrr_file.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +10,10 @@
 #include "tests/core/edited_mrr.h"
 #include "tests/core/meshes.h"
 #include "tests/core/random.h"
+#include "vsplit/mrr/base_codec.h"
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/mrr/record_block.h"
+#include "vsplit/mrr/record_codec.h"
 
 namespace vsplit::test {
 namespace {

@@ -31,15 +31,9 @@ struct Ends {
     ProgressiveMesh mesh;
 
     Ends(MultiresMesh given, const EncodingChoice& choice)
-        : mrr(std::move(given)),
-          grid(*PositionGrid::over(mrr, choice)),
-          rounded(on_grid(mrr, grid)),
-          codec(grid),
-          mesh(base()) {}
+        : mrr(std::move(given)), grid(*PositionGrid::over(mrr, choice)), rounded(on_grid(mrr, grid)), codec(grid), mesh(base()) {}
     [[nodiscard]] ProgressiveMesh base() const { return *ProgressiveMesh::from_base(rounded.base, mrr.ghosts); }
-    [[nodiscard]] RecordBlock encode(std::size_t last) {
-        return *codec.encode(mrr.records, mesh.records(), last, mesh);
-    }
+    [[nodiscard]] RecordBlock encode(std::size_t last) { return *codec.encode(mrr.records, mesh.records(), last, mesh); }
 };
 
 TEST(RecordCodecTest, EveryMeshIsTheRoundedOneBitForBit) {
@@ -155,7 +149,9 @@ TEST(RecordCodecTest, NoBlockIsOverTheLimit) {
     // Positions without any pattern: nothing can be predicted, and nothing compressed.
     MultiresMesh mrr{tetrahedron(), {}, 0, 0, {}};
     Random random(5);
-    const auto point = [&random] { return Vec3(1e3 * random.uniform(0, 1), 1e-3 * random.uniform(0, 1), 1e6 * random.uniform(0, 1)); };
+    const auto point = [&random] {
+        return Vec3(1e3 * random.uniform(0, 1), 1e-3 * random.uniform(0, 1), 1e6 * random.uniform(0, 1));
+    };
     for (std::uint32_t n = 0; n < 40000; ++n) mrr.records.push_back(VertexSplit{random.below(12 + 6 * n), 1, point(), point()});
     for (const EncodingChoice& choice : kChoices) {
         Ends ends(mrr, choice);

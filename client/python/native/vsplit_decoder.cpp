@@ -108,7 +108,8 @@ int vsplit_decoder_begin_packed(vsplit_decoder* decoder, const std::uint8_t* byt
     return guarded(decoder, [&]() -> Status {
         const Expected<PositionGrid> grid = grid_of(encoding, bits, origin, step);
         if (!grid) return grid.error();
-        Expected<TriangleMesh> base = vsplit::unpack_base({std::as_bytes(std::span(bytes, size)), vertices, faces, ghosts}, *grid);
+        Expected<TriangleMesh> base =
+            vsplit::unpack_base({std::as_bytes(std::span(bytes, size)), vertices, faces, ghosts}, *grid);
         if (!base) return base.error();
         return decoder->begin(*std::move(base), ghosts, *grid);
     });
@@ -133,6 +134,7 @@ std::uint32_t vsplit_decoder_vertices(const vsplit_decoder* decoder) { return de
 std::uint32_t vsplit_decoder_faces(const vsplit_decoder* decoder) { return decoder->visible.face_count(); }
 
 void vsplit_decoder_copy(const vsplit_decoder* decoder, double* positions, std::uint32_t* indices) {
-    for (const Vec3& position : decoder->visible.positions) positions = std::copy(position.data(), position.data() + 3, positions);
+    for (const Vec3& position : decoder->visible.positions)
+        positions = std::copy(position.data(), position.data() + 3, positions);
     for (const vsplit::Triangle& face : decoder->visible.faces) indices = std::copy(face.begin(), face.end(), indices);
 }

@@ -66,7 +66,7 @@ private:
         std::uint32_t symbol = 0;
         if constexpr (Symbols::kWrites) {
             c = mesh_.faces[coded_][2];
-            symbol = number(c == known_       ? ThirdVertex::kNew
+            symbol = number(c == known_        ? ThirdVertex::kNew
                             : c == right(gate) ? ThirdVertex::kRight
                             : c == left(gate)  ? ThirdVertex::kLeft
                                                : ThirdVertex::kNamed);
@@ -154,7 +154,8 @@ private:
 
 /// Codes any mesh: indices and coordinates as differences to the ones before.
 template <class Symbols, class Codes>
-[[nodiscard]] bool code_plain(Symbols symbols, const Codes& codes, TriangleMesh& mesh, std::uint32_t vertices, std::uint32_t faces) {
+[[nodiscard]] bool code_plain(Symbols symbols, const Codes& codes, TriangleMesh& mesh, std::uint32_t vertices,
+                              std::uint32_t faces) {
     Vec3 before = Vec3::Zero();
     for (std::uint32_t v = 0; v < vertices; ++v) {
         if constexpr (!Symbols::kWrites) mesh.positions.push_back(Vec3::Zero());

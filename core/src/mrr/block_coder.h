@@ -20,8 +20,8 @@ class BlockCoder {
 public:
     BlockCoder(Symbols symbols, const Codes& codes, ProgressiveMesh& mesh) : symbols_(symbols), codes_(codes), mesh_(mesh) {}
 
-    /// Reading only: takes the places of all splits of the block at once, so that the mesh around the next ones can be fetched from
-    /// memory while one is decoded. Beyond the caches that is most of the time.
+    /// Reading only: takes the places of all splits of the block at once, so that the mesh around the next ones can be fetched
+    /// from memory while one is decoded. Beyond the caches that is most of the time.
     void read_places(std::size_t splits) {
         places_.resize(splits);
         std::uint32_t count = mesh_.mesh().vertex_count();
@@ -110,8 +110,8 @@ private:
         return place - kIsBeside < beside_.size() ? beside_[place - kIsBeside] : kNone;
     }
 
-    /// Walks around a vertex that is split later, a step a record, and asks for the memory of the next step. The mesh changes under
-    /// it, so it may miss something; it reads nothing that is not there.
+    /// Walks around a vertex that is split later, a step a record, and asks for the memory of the next step. The mesh changes
+    /// under it, so it may miss something; it reads nothing that is not there.
     struct Walker {
         std::uint32_t vertex = kNone;
         HalfEdge corner = kNone;
@@ -208,7 +208,8 @@ private:
             put(along + codes_.scale(frame.reach[w], centre[w]), centre[w] + guess[w], w, point);
             return;
         }
-        const double slope = (frame.normal[u] * (point[u] - centre[u]) + frame.normal[v] * (point[v] - centre[v])) / frame.normal[w];
+        const double slope =
+            (frame.normal[u] * (point[u] - centre[u]) + frame.normal[v] * (point[v] - centre[v])) / frame.normal[w];
         put(across + codes_.scale(frame.thickness, centre[w]), (centre[w] - slope) + height, w, point);
     }
 

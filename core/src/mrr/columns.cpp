@@ -108,8 +108,9 @@ Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most
         const unsigned long long content =
             next.compressed ? ZSTD_getFrameContentSize(next.bytes.data(), next.bytes.size()) : next.bytes.size();
         if (content == 0 || content > most - total) {  // also what zstd says where it finds no size
-            return corrupt("column " + std::to_string(next.column) + " would unpack to nothing, to an unknown size or to more than " +
-                           std::to_string(most - total) + " bytes");
+            return corrupt("column " + std::to_string(next.column) +
+                           " would unpack to nothing, to an unknown size or to more than " + std::to_string(most - total) +
+                           " bytes");
         }
         next.size = static_cast<std::size_t>(content);
         total += next.size;
@@ -125,7 +126,8 @@ Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most
             if (ZSTD_decompressDCtx(zstd_.get(), to, column.size, column.bytes.data(), column.bytes.size()) != column.size)
                 return corrupt("column " + std::to_string(column.column) + " is no whole zstd frame");
         } else {
-            std::transform(column.bytes.begin(), column.bytes.end(), to, [](std::byte byte) { return static_cast<std::uint8_t>(byte); });
+            std::transform(column.bytes.begin(), column.bytes.end(), to,
+                           [](std::byte byte) { return static_cast<std::uint8_t>(byte); });
         }
         columns_[column.column] = {to, to + column.size};
         to += column.size;

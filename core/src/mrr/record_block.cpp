@@ -60,8 +60,8 @@ Status check_block(const RecordBlock& block) {
         return corrupt_block(block, "record numbers go beyond 32 bits");
     }
     if (crc32c(bytes_of(block.payload)) != block.crc32c) {
-        return corrupt_block(block, "the CRC-32C of the payload is " + std::to_string(crc32c(bytes_of(block.payload))) + ", not " +
-                                        std::to_string(block.crc32c) + " as the block says");
+        return corrupt_block(block, "the CRC-32C of the payload is " + std::to_string(crc32c(bytes_of(block.payload))) +
+                                        ", not " + std::to_string(block.crc32c) + " as the block says");
     }
     return Done{};
 }
@@ -91,14 +91,14 @@ Expected<Columns> read_kinds(const RecordBlock& block) {
         if (n >= block.count) continue;
         if (kind > static_cast<std::uint8_t>(RecordKind::kMove)) {
             return corrupt_block(block, "record " + std::to_string(block.first + n) + " is of kind " + std::to_string(kind) +
-                                      "; known are 0 (split), 1 (flip) and 2 (move)");
+                                            "; known are 0 (split), 1 (flip) and 2 (move)");
         }
         columns.add(RecordKind{kind});
     }
     if (columns.bytes() == block.payload.size()) return columns;
     return corrupt_block(block, std::to_string(columns.splits) + " splits, " + std::to_string(columns.flips) + " flips and " +
-                              std::to_string(columns.moves) + " moves take " + std::to_string(columns.bytes()) + " bytes, not " +
-                              std::to_string(block.payload.size()));
+                                    std::to_string(columns.moves) + " moves take " + std::to_string(columns.bytes()) +
+                                    " bytes, not " + std::to_string(block.payload.size()));
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ struct RecordCodec::Impl {
     template <class Codes>
     Status read(const RecordBlock& block, ProgressiveMesh& mesh, RecordList* records);
     [[nodiscard]] Status write_any(const RecordSpan& records, ProgressiveMesh& mesh) {
-        return grid.encoding() == RecordEncoding::kFloat32 ? write<Float32Codes>(records, mesh) : write<QuantisedCodes>(records, mesh);
+        return grid.encoding() == RecordEncoding::kFloat32 ? write<Float32Codes>(records, mesh)
+                                                           : write<QuantisedCodes>(records, mesh);
     }
     [[nodiscard]] Expected<RecordBlock> encode_compact(const RecordList& records, std::size_t first, std::size_t count,
                                                        ProgressiveMesh& mesh);
@@ -80,8 +81,8 @@ template <class Codes>
 Status RecordCodec::Impl::read(const RecordBlock& block, ProgressiveMesh& mesh, RecordList* records) {
     const std::span<const std::uint8_t> kinds = reader.rest(column::kKinds);
     if (kinds.size() != block.count) {
-        return corrupt_block(block, "it has " + std::to_string(kinds.size()) + " kinds of records for a count of " +
-                                        std::to_string(block.count));
+        return corrupt_block(
+            block, "it has " + std::to_string(kinds.size()) + " kinds of records for a count of " + std::to_string(block.count));
     }
     BlockCoder<SymbolReader, Codes> coder(SymbolReader(reader), Codes(grid), mesh);
     const auto take = [&](auto record) -> Status {
@@ -100,7 +101,8 @@ Status RecordCodec::Impl::read(const RecordBlock& block, ProgressiveMesh& mesh, 
                              : kinds[n] == 2 ? take(VertexMove())
                                              : Status(Error{Cause::kCorrupt, "its kind is " + std::to_string(kinds[n]), ""});
         if (!taken) return corrupt_block(block, "record " + std::to_string(block.first + n) + ": " + taken.error().message);
-        if (reader.ran_short()) return corrupt_block(block, "record " + std::to_string(block.first + n) + ": its columns are too short");
+        if (reader.ran_short())
+            return corrupt_block(block, "record " + std::to_string(block.first + n) + ": its columns are too short");
     }
     if (reader.all_read()) return Done{};
     return corrupt_block(block, "something is left over behind the last record");
@@ -109,8 +111,8 @@ Status RecordCodec::Impl::read(const RecordBlock& block, ProgressiveMesh& mesh, 
 Status RecordCodec::Impl::decode_compact(const RecordBlock& block, ProgressiveMesh& mesh, RecordList* records) {
     if (Status valid = check_block(block); !valid) return valid;
     if (block.count > kMaxBlockRecords) {
-        return corrupt_block(block, std::to_string(block.count) + " records are more than the " + std::to_string(kMaxBlockRecords) +
-                                        " a block may have");
+        return corrupt_block(block, std::to_string(block.count) + " records are more than the " +
+                                        std::to_string(kMaxBlockRecords) + " a block may have");
     }
     const auto payload = std::as_bytes(std::span(block.payload));
     if (payload.empty() || static_cast<std::uint32_t>(payload[0]) != grid.bits()) {
@@ -141,7 +143,8 @@ Expected<RecordBlock> RecordCodec::encode(const RecordList& records, std::size_t
 Status RecordCodec::decode(const RecordBlock& block, ProgressiveMesh& mesh, RecordList* records) {
     if (block.encoding != grid().encoding()) {
         return corrupt_block(block, "its encoding is " + std::to_string(static_cast<std::uint32_t>(block.encoding)) +
-                                        ", that of the base mesh was " + std::to_string(static_cast<std::uint32_t>(grid().encoding())));
+                                        ", that of the base mesh was " +
+                                        std::to_string(static_cast<std::uint32_t>(grid().encoding())));
     }
     if (block.encoding != RecordEncoding::kFloat64) return impl_->decode_compact(block, mesh, records);
     const Expected<RecordList> decoded = decode_block(block);

@@ -71,10 +71,10 @@ private:
 
 /// How a star lies: the axis its normal is nearest to, the plane through its centre, and how far it reaches.
 struct StarFrame {
-    unsigned across = 0;       ///< axis: 0, 1 or 2
-    Offset normal{};           ///< of the plane, as long as twice the star's area
-    Offset reach{};            ///< largest distance of a neighbour along each axis
-    double thickness = 0;      ///< largest height of a neighbour over the plane, measured along `across`
+    unsigned across = 0;   ///< axis: 0, 1 or 2
+    Offset normal{};       ///< of the plane, as long as twice the star's area
+    Offset reach{};        ///< largest distance of a neighbour along each axis
+    double thickness = 0;  ///< largest height of a neighbour over the plane, measured along `across`
 
     explicit StarFrame(const Star& star) {
         const std::uint32_t valence = star.valence();

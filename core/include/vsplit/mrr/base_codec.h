@@ -15,8 +15,9 @@ namespace vsplit {
 /// \pre `base` is a closed manifold, its positions on `grid`, which is not kFloat64. O(vertices + faces).
 [[nodiscard]] std::string pack_base(const TriangleMesh& base, std::uint32_t ghosts, const PositionGrid& grid);
 
-/// The way back, bit for bit. `vertices`, `faces` and `ghosts` are as announced. \return CORRUPT, with what is wrong. Memory grows
-/// with the bytes that are there, at most about 100 times. Whether the mesh is closed is for ProgressiveMesh::from_base to say.
+/// The way back, bit for bit. `vertices`, `faces` and `ghosts` are as announced. \return CORRUPT, with what is wrong. Memory
+/// grows with the bytes that are there, at most about 100 times. Whether the mesh is closed is for ProgressiveMesh::from_base to
+/// say.
 struct PackedBase {
     std::span<const std::byte> bytes;
     std::uint32_t vertices = 0;

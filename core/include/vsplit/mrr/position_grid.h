@@ -48,9 +48,9 @@ public:
     [[nodiscard]] static Expected<PositionGrid> over(const MultiresMesh& mrr, const EncodingChoice& choice);
 
     [[nodiscard]] RecordEncoding encoding() const { return encoding_; }
-    [[nodiscard]] std::uint32_t bits() const { return bits_; }      ///< 0 unless quantised
-    [[nodiscard]] const Vec3& origin() const { return origin_; }    ///< 0 unless quantised
-    [[nodiscard]] double step() const { return step_; }             ///< 0 unless quantised
+    [[nodiscard]] std::uint32_t bits() const { return bits_; }    ///< 0 unless quantised
+    [[nodiscard]] const Vec3& origin() const { return origin_; }  ///< 0 unless quantised
+    [[nodiscard]] double step() const { return step_; }           ///< 0 unless quantised
 
     /// No coordinate of a mesh that fits the box is rounded by more than this, model units; `largest` is the largest absolute
     /// value of a coordinate. 0 for every double.

@@ -106,7 +106,7 @@ private:
     void undo_last();
 
     TriangleMesh mesh_;
-    std::vector<std::uint32_t> twin_;  // of half-edge 3f + c, which leaves corner c of face f along it
+    std::vector<std::uint32_t> twin_;       // of half-edge 3f + c, which leaves corner c of face f along it
     std::vector<std::uint32_t> corner_of_;  // of each vertex
     std::uint32_t ghosts_ = 0;
     std::size_t level_ = 0;

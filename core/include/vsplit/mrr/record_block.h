@@ -35,8 +35,8 @@ inline constexpr std::size_t kMaxBlockBytes = std::size_t{256} * 1024;
 /// \pre records.consistent(), and records_that_fit(records, encoding) is records.size(). O(records).
 [[nodiscard]] RecordBlock encode_block(const RecordSpan& records, std::uint32_t first, RecordEncoding encoding);
 
-/// Of the encoding kFloat64. \return CORRUPT naming the block by its first record, when the checksum, the size, a kind or the encoding does not fit.
-/// Whether the records fit a mesh is for ProgressiveMesh::refine to say. O(records).
+/// Of the encoding kFloat64. \return CORRUPT naming the block by its first record, when the checksum, the size, a kind or the
+/// encoding does not fit. Whether the records fit a mesh is for ProgressiveMesh::refine to say. O(records).
 [[nodiscard]] Expected<RecordList> decode_block(const RecordBlock& block);
 
 /// CRC-32C of bytes.

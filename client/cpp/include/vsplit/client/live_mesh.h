@@ -15,19 +15,20 @@ namespace vsplit::client {
 
 /// How a stream that breaks off is taken up again.
 struct ResumeOptions {
-    int attempts = 5;                           ///< tries in a row that bring nothing before the error is given up to; >= 1
-    std::chrono::milliseconds first_wait{20};   ///< before the second try; each further wait is twice as long
+    int attempts = 5;                          ///< tries in a row that bring nothing before the error is given up to; >= 1
+    std::chrono::milliseconds first_wait{20};  ///< before the second try; each further wait is twice as long
     std::chrono::milliseconds longest_wait{2000};
 };
 
 /// Brings `receiver` to the resolution nearest to `faces`: without the server where it holds that already, else by SetResolution
-/// from what it holds on. Where the connection breaks (UNAVAILABLE) the stream goes on at the first record still missing, on a new
-/// connection. The receiver holds whatever has come, also when this fails. \return the faces shown; what set_resolution returns.
+/// from what it holds on. Where the connection breaks (UNAVAILABLE) the stream goes on at the first record still missing, on a
+/// new connection. The receiver holds whatever has come, also when this fails. \return the faces shown; what set_resolution
+/// returns.
 struct ResolutionTarget {
     std::string session;
     std::string representation;  ///< as the id that Improve or Control gave
     std::uint32_t faces = 0;
-    EncodingChoice encoding;     ///< of a receiver that holds nothing; one that does goes on in its own
+    EncodingChoice encoding;  ///< of a receiver that holds nothing; one that does goes on in its own
 };
 [[nodiscard]] Expected<std::uint32_t> move_to(MeshingClient& client, const ResolutionTarget& target, MeshReceiver& receiver,
                                               const ResumeOptions& resume = {}, const CallOptions& call = {});
