@@ -64,6 +64,32 @@ protected:
         return made_.faces_min() + random_.below(made_.faces_max() - made_.faces_min() + 1);
     }
 
+    /// Goes from the coarsest to the finest until fifty connections have been cut on the way.
+    void cut_fifty_times(const EncodingChoice& choice) {
+        CuttingProxy proxy(server_.server().port());
+        MeshingClient client = connect(proxy.port());
+        const TriangleMesh finest = downloaded(made_.faces_max(), grid(choice));
+        // Sometimes within a block, which comes anew, sometimes between two.
+        const std::size_t most = choice.encoding == RecordEncoding::kFloat64 ? 400'000 : 150'000;
+        const client::ResumeOptions resume{50, std::chrono::milliseconds(2), std::chrono::milliseconds(20)};
+        for (int round = 0; round < 100 && proxy.cuts() < 50; ++round) {
+            proxy.cut_every(0, 0);
+            MeshReceiver receiver;
+            ASSERT_TRUE(move_to(client, target(made_.faces_min(), choice), receiver));
+            proxy.cut_every(2000, most);
+            std::uint32_t held = receiver.records_held();
+            for (std::uint32_t part = 1; part <= 4; ++part) {
+                const std::uint32_t faces = made_.faces_min() + (made_.faces_max() - made_.faces_min()) / 4 * part;
+                const auto shown = move_to(client, target(part == 4 ? made_.faces_max() : faces, choice), receiver, resume);
+                ASSERT_TRUE(shown) << shown.error().message;
+                ASSERT_GT(receiver.records_held(), held);  // whoever began anew would hold the base first
+                held = receiver.records_held();
+            }
+            ASSERT_EQ(receiver.mesh(), finest);
+        }
+        EXPECT_GE(proxy.cuts(), 50);
+    }
+
     mutable TestServer server_;
     const std::string session_ = session_with(server_.stub(), bumpy_sphere(3, 0.02, 5));
     v1::Representation made_;
@@ -89,32 +115,9 @@ TEST_F(LiveMeshTest, AThousandJumpsOverOneConnectionGiveWhatDownloadMeshGives) {
     }
 }
 
-TEST_F(LiveMeshTest, AConnectionThatIsCutFiftyTimesStartsNothingOver) {
-    for (const EncodingChoice& choice : kChoices) {
-        CuttingProxy proxy(server_.server().port());
-        MeshingClient client = connect(proxy.port());
-        const TriangleMesh finest = downloaded(made_.faces_max(), grid(choice));
-        // Sometimes within a block, which comes anew, sometimes between two.
-        const std::size_t most = choice.encoding == RecordEncoding::kFloat64 ? 400'000 : 150'000;
-        const client::ResumeOptions resume{50, std::chrono::milliseconds(2), std::chrono::milliseconds(20)};
-        for (int round = 0; round < 100 && proxy.cuts() < 50; ++round) {
-            proxy.cut_every(0, 0);
-            MeshReceiver receiver;
-            ASSERT_TRUE(move_to(client, target(made_.faces_min(), choice), receiver));
-            proxy.cut_every(2000, most);
-            std::uint32_t held = receiver.records_held();
-            for (std::uint32_t part = 1; part <= 4; ++part) {
-                const std::uint32_t faces = made_.faces_min() + (made_.faces_max() - made_.faces_min()) / 4 * part;
-                const auto shown = move_to(client, target(part == 4 ? made_.faces_max() : faces, choice), receiver, resume);
-                ASSERT_TRUE(shown) << shown.error().message;
-                ASSERT_GT(receiver.records_held(), held);  // whoever began anew would hold the base first
-                held = receiver.records_held();
-            }
-            ASSERT_EQ(receiver.mesh(), finest);
-        }
-        EXPECT_GE(proxy.cuts(), 50);
-    }
-}
+TEST_F(LiveMeshTest, AConnectionThatIsCutFiftyTimesStartsNothingOver) { cut_fifty_times(kChoices[0]); }
+TEST_F(LiveMeshTest, NorInSinglePrecision) { cut_fifty_times(kChoices[1]); }
+TEST_F(LiveMeshTest, NorQuantised) { cut_fifty_times(kChoices[2]); }
 
 TEST_F(LiveMeshTest, FetchBringsAMeshUpToDateByRanges) {
     MeshingClient client = connect();
