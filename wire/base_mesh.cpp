@@ -7,6 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "vsplit/mrr/base_codec.h"
+#include "vsplit/mrr/record_block.h"
+#include "wire/convert.h"
+
 namespace vsplit::wire {
 namespace {
 
@@ -72,16 +76,89 @@ v1::BaseMesh base_mesh_part(const TriangleMesh& mesh, std::size_t part, std::uin
     return proto;
 }
 
+PackedBaseMesh pack_base_mesh(const MultiresMesh& mrr, const PositionGrid& grid) {
+    TriangleMesh base = mrr.base;
+    for (Vec3& position : base.positions) position = grid.snap(position);
+    double largest = 0;
+    for_each_position(mrr, [&largest](const Vec3& p) { largest = std::max(largest, p.cwiseAbs().maxCoeff()); });
+    PackedBaseMesh packed{
+        pack_base(base, mrr.ghosts, grid), 0, base.vertex_count(), base.face_count(), mrr.ghosts, grid, grid.max_error(largest)};
+    packed.crc32c = crc32c(std::as_bytes(std::span(packed.bytes)));
+    return packed;
+}
+
+std::size_t base_mesh_parts(const PackedBaseMesh& base) { return parts_of(base.bytes.size(), kMaxPartBytes); }
+
+v1::BaseMesh base_mesh_part(const PackedBaseMesh& base, std::size_t part) {
+    assert(part < base_mesh_parts(base));
+    v1::BaseMesh proto;
+    proto.set_vertices(base.vertices);
+    proto.set_faces(base.faces);
+    proto.set_ghosts(base.ghosts);
+    proto.set_encoding(to_proto(base.grid.encoding()));
+    proto.set_max_error(base.max_error);
+    if (base.grid.encoding() == RecordEncoding::kQuantised) {
+        proto.set_quantisation_bits(base.grid.bits());
+        proto.mutable_origin()->set_x(base.grid.origin().x());
+        proto.mutable_origin()->set_y(base.grid.origin().y());
+        proto.mutable_origin()->set_z(base.grid.origin().z());
+        proto.set_step(base.grid.step());
+    }
+    proto.set_packed_size(static_cast<std::uint32_t>(base.bytes.size()));
+    proto.set_packed_offset(static_cast<std::uint32_t>(part * kMaxPartBytes));
+    proto.set_packed(base.bytes.substr(part * kMaxPartBytes, kMaxPartBytes));
+    proto.set_packed_crc32c(base.crc32c);
+    return proto;
+}
+
+Status BaseMeshAssembler::begin(const v1::BaseMesh& part) {
+    vertices_ = part.vertices();
+    faces_ = part.faces();
+    ghosts_ = part.ghosts();
+    begun_ = true;
+    max_error_ = part.max_error();
+    const Expected<RecordEncoding> encoding = from_proto(part.encoding());
+    if (!encoding) return base_error(Cause::kCorrupt, encoding.error().message);
+    if (*encoding == RecordEncoding::kFloat32) grid_ = PositionGrid::float32();
+    if (*encoding != RecordEncoding::kQuantised) return Done{};
+    const Vec3 origin(part.origin().x(), part.origin().y(), part.origin().z());
+    const Expected<PositionGrid> grid = PositionGrid::quantised(part.quantisation_bits(), origin, part.step());
+    if (!grid) return base_error(Cause::kCorrupt, grid.error().message);
+    grid_ = *grid;
+    return Done{};
+}
+
+Status BaseMeshAssembler::add_packed(const v1::BaseMesh& part) {
+    if (part.packed_offset() != packed_.size()) {
+        return base_error(Cause::kOutOfOrder, "a part begins at byte " + std::to_string(part.packed_offset()) + ", expected is " +
+                                                  std::to_string(packed_.size()));
+    }
+    if (part.packed().empty() || part.packed().size() > part.packed_size() - packed_.size()) {
+        return base_error(Cause::kCorrupt, "a part of " + std::to_string(part.packed().size()) + " bytes where 1 to " +
+                                               std::to_string(part.packed_size() - packed_.size()) + " are due");
+    }
+    packed_ += part.packed();
+    return packed_.size() == part.packed_size() ? unpack(part) : Status(Done{});
+}
+
+Status BaseMeshAssembler::unpack(const v1::BaseMesh& part) {
+    const auto bytes = std::as_bytes(std::span(packed_));
+    if (crc32c(bytes) != part.packed_crc32c()) return base_error(Cause::kCorrupt, "its CRC-32C does not fit its bytes");
+    Expected<TriangleMesh> mesh = unpack_base({bytes, vertices_, faces_, ghosts_}, grid_);
+    if (!mesh) return mesh.error();
+    mesh_ = *std::move(mesh);
+    packed_ = {};
+    complete_ = true;
+    return Done{};
+}
+
 Status BaseMeshAssembler::check_counts(const v1::BaseMesh& part) {
     if (part.faces() > max_faces_ || part.vertices() > max_faces_) {
         return base_error(Cause::kLimitExceeded, counts(part.vertices(), part.faces()) + " announced; accepted are at most " +
                                                      std::to_string(max_faces_) + " of each");
     }
     if (!begun_) {
-        vertices_ = part.vertices();
-        faces_ = part.faces();
-        ghosts_ = part.ghosts();
-        begun_ = true;
+        if (Status begun = begin(part); !begun) return begun;
     }
     if (part.vertices() != vertices_ || part.faces() != faces_ || part.ghosts() != ghosts_) {
         return base_error(Cause::kCorrupt, "a part announces " + counts(part.vertices(), part.faces(), part.ghosts()) +
@@ -125,6 +202,7 @@ Status BaseMeshAssembler::check_bytes(const v1::BaseMesh& part) const {
 Status BaseMeshAssembler::add(const v1::BaseMesh& part) {
     if (complete()) return base_error(Cause::kOutOfOrder, "a part came after the last");
     if (Status ok = check_counts(part); !ok) return ok;
+    if (grid_.encoding() != RecordEncoding::kFloat64) return add_packed(part);
     if (Status ok = check_order(part); !ok) return ok;
     if (Status ok = check_bytes(part); !ok) return ok;
     append(part.positions(), mesh_.positions);

@@ -5,6 +5,7 @@
 
 #include "vsplit/base/expected.h"
 #include "vsplit/mesh/triangle_mesh.h"
+#include "vsplit/mrr/position_grid.h"
 #include "vsplit/v1/meshing.pb.h"
 
 namespace vsplit::wire {
@@ -18,6 +19,25 @@ inline constexpr std::size_t kMaxPartBytes = std::size_t{256} * 1024;
 /// Part number `part` of a mesh whose first `ghosts` vertices are ghosts (see MultiresMesh). \pre part < base_mesh_parts(mesh).
 /// O(kMaxPartBytes).
 [[nodiscard]] v1::BaseMesh base_mesh_part(const TriangleMesh& mesh, std::size_t part, std::uint32_t ghosts = 0);
+
+/// A base mesh as pack_base makes it, and what its client must know to read it.
+struct PackedBaseMesh {
+    std::string bytes;
+    std::uint32_t crc32c = 0;
+    std::uint32_t vertices = 0;
+    std::uint32_t faces = 0;
+    std::uint32_t ghosts = 0;
+    PositionGrid grid;
+    double max_error = 0;  ///< of any coordinate of the stream, model units
+};
+
+/// \pre grid is not of kFloat64, and that of `mrr`. O(records).
+[[nodiscard]] PackedBaseMesh pack_base_mesh(const MultiresMesh& mrr, const PositionGrid& grid);
+
+[[nodiscard]] std::size_t base_mesh_parts(const PackedBaseMesh& base);
+
+/// \pre part < base_mesh_parts(base). O(kMaxPartBytes).
+[[nodiscard]] v1::BaseMesh base_mesh_part(const PackedBaseMesh& base, std::size_t part);
 
 /// Puts a base mesh together from its parts. What arrives is checked before it is kept: order, sizes, the limit; memory grows
 /// with the bytes that have come, never with the counts that a part claims. Indices, coordinates and ghosts are
@@ -39,10 +59,17 @@ public:
     /// How many of its first vertices are ghosts, as the first part said.
     [[nodiscard]] std::uint32_t ghosts() const { return ghosts_; }
 
+    /// The positions that the stream has, and by how much they may be off, as the first part said.
+    [[nodiscard]] const PositionGrid& grid() const { return grid_; }
+    [[nodiscard]] double max_error() const { return max_error_; }
+
 private:
     [[nodiscard]] Status check_counts(const v1::BaseMesh& part);
     [[nodiscard]] Status check_order(const v1::BaseMesh& part) const;
     [[nodiscard]] Status check_bytes(const v1::BaseMesh& part) const;
+    [[nodiscard]] Status begin(const v1::BaseMesh& part);
+    [[nodiscard]] Status add_packed(const v1::BaseMesh& part);
+    [[nodiscard]] Status unpack(const v1::BaseMesh& part);
 
     std::uint32_t max_faces_;
     std::uint32_t vertices_ = 0;
@@ -50,6 +77,9 @@ private:
     std::uint32_t ghosts_ = 0;
     bool begun_ = false;
     bool complete_ = false;
+    PositionGrid grid_;
+    double max_error_ = 0;
+    std::string packed_;
     TriangleMesh mesh_;
 };
 

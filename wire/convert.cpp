@@ -342,6 +342,10 @@ v1::RecordEncoding to_proto(RecordEncoding encoding) {
     switch (encoding) {
         case RecordEncoding::kFloat64:
             return v1::FLOAT64;
+        case RecordEncoding::kFloat32:
+            return v1::FLOAT32;
+        case RecordEncoding::kQuantised:
+            return v1::QUANTISED;
     }
     return v1::RECORD_ENCODING_UNSPECIFIED;
 }
@@ -351,8 +355,12 @@ Expected<RecordEncoding> from_proto(v1::RecordEncoding encoding) {
         case v1::RECORD_ENCODING_UNSPECIFIED:
         case v1::FLOAT64:
             return RecordEncoding::kFloat64;
+        case v1::FLOAT32:
+            return RecordEncoding::kFloat32;
+        case v1::QUANTISED:
+            return RecordEncoding::kQuantised;
         default:
-            return unknown_number("encoding", encoding, "FLOAT64");
+            return unknown_number("encoding", encoding, "FLOAT64, FLOAT32 or QUANTISED");
     }
 }
 

@@ -76,6 +76,14 @@ namespace vsplit::wire {
 /// Unspecified becomes kFloat64. \return INVALID_OPTION (field "encoding") for one this version does not know.
 [[nodiscard]] Expected<RecordEncoding> from_proto(v1::RecordEncoding encoding);
 
+/// `encoding` and `quantisation_bits` of a request, defaults filled in. \return also what check_encoding returns.
+template <class Request>
+[[nodiscard]] Expected<EncodingChoice> encoding_of(const Request& request) {
+    const Expected<RecordEncoding> encoding = from_proto(request.encoding());
+    if (!encoding) return encoding.error();
+    return check_encoding({*encoding, request.quantisation_bits()});
+}
+
 /// Takes the payload over instead of copying it where the argument is given away.
 [[nodiscard]] v1::RecordBlock to_proto(RecordBlock block);
 

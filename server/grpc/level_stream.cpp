@@ -11,38 +11,92 @@
 
 namespace vsplit::rpc {
 
-LevelParts::LevelParts(service::ResolutionPlan plan, RecordEncoding encoding)
-    : plan_(std::move(plan)),
-      encoding_(encoding),
-      base_parts_(plan_.with_base ? wire::base_mesh_parts(plan_.representation->mrr().base) : 0),
-      record_(plan_.first_record) {}
+LevelParts::LevelParts(service::MeshingService& service, service::ResolutionPlan plan, const EncodingChoice& choice, Wake wake)
+    : service_(&service), plan_(std::move(plan)), choice_(choice), wake_(std::move(wake)), record_(plan_.first_record) {
+    const bool plain = choice_.encoding == RecordEncoding::kFloat64;
+    if (plain && plan_.with_base) base_parts_ = wire::base_mesh_parts(plan_.representation->mrr().base);
+}
 
-bool LevelParts::next(v1::ProgressiveEvent& event) {
+Expected<LevelParts::Step> LevelParts::next(v1::ProgressiveEvent& event) {
+    if (choice_.encoding == RecordEncoding::kFloat64) return next_plain(event) ? Step::kMessage : Step::kEnd;
+    if (Status taken = take_made(); !taken) return taken.error();
+    if (made_.base && base_part_ < wire::base_mesh_parts(*made_.base)) {
+        *event.mutable_base_mesh() = wire::base_mesh_part(*made_.base, base_part_++);
+        return Step::kMessage;
+    }
+    const bool ready = made_.encoded != nullptr;
+    if (ready && record_ == plan_.last_record) return Step::kEnd;
+    if (ready && !made_.block) made_.block = made_.encoded->find(record_, plan_.last_record);
+    if (!made_.block) {
+        if (Status begun = begin_errand(); !begun) return begun.error();
+        return Step::kWait;
+    }
+    const service::EncodedRecords::Block block = std::exchange(made_.block, nullptr);
+    send(*block, event);
+    if (record_ < plan_.last_record) {  // the next is made while this one is on its way
+        made_.block = made_.encoded->find(record_, plan_.last_record);
+        if (!made_.block) {
+            if (Status begun = begin_errand(); !begun) return begun.error();
+        }
+    }
+    return Step::kMessage;
+}
+
+void LevelParts::send(const RecordBlock& block, v1::ProgressiveEvent& event) {
+    *event.mutable_record_block() = wire::to_proto(block);
+    record_ += block.count;
+}
+
+Status LevelParts::take_made() {
+    std::optional<Expected<Made>> made = box_->take();
+    if (!made) return Done{};
+    waiting_ = false;
+    if (!*made) return made->error();
+    made_ = **std::move(made);
+    return Done{};
+}
+
+Status LevelParts::begin_errand() {
+    if (waiting_) return Done{};
+    waiting_ = true;
+    const auto work = [box = box_, wake = wake_, representation = plan_.representation, choice = choice_, made = made_,
+                       with_base = plan_.with_base, first = record_, last = plan_.last_record]() mutable {
+        box->put(service::guarded([&]() -> Expected<Made> {
+            if (!made.encoded) {
+                made.encoded = representation->encoded(choice);
+                if (with_base) made.base = wire::pack_base_mesh(representation->mrr(), made.encoded->grid());
+            }
+            if (first == last) return std::move(made);
+            Expected<service::EncodedRecords::Block> block = made.encoded->find_or_make(first, last);
+            if (!block) return block.error();
+            made.block = *std::move(block);
+            return std::move(made);
+        }));
+        wake();
+    };
+    if (service_->errand(work)) return Done{};
+    return Error{Cause::kUnavailable, "the server is shutting down", ""};
+}
+
+bool LevelParts::next_plain(v1::ProgressiveEvent& event) {
+    const MultiresMesh& mrr = plan_.representation->mrr();
     if (base_part_ < base_parts_) {
-        const MultiresMesh& mrr = plan_.representation->mrr();
         *event.mutable_base_mesh() = wire::base_mesh_part(mrr.base, base_part_++, mrr.ghosts);
         return true;
     }
     if (record_ == plan_.last_record) return false;
-    next_block(event);
-    return true;
-}
-
-void LevelParts::next_block(v1::ProgressiveEvent& event) {
-    const RecordList& records = plan_.representation->mrr().records;
     // No record of any encoding takes less than a byte of its block.
     const std::size_t most = std::min(kMaxBlockBytes, plan_.last_record - record_);
-    const std::size_t count = records_that_fit(records.slice(record_, most), encoding_);
-    *event.mutable_record_block() =
-        wire::to_proto(encode_block(records.slice(record_, count), static_cast<std::uint32_t>(record_), encoding_));
-    record_ += count;
+    const std::size_t count = records_that_fit(mrr.records.slice(record_, most), choice_.encoding);
+    send(encode_block(mrr.records.slice(record_, count), static_cast<std::uint32_t>(record_), choice_.encoding), event);
+    return true;
 }
 
 Expected<std::unique_ptr<MessageSource<v1::ProgressiveEvent>>> LevelSource::make(service::MeshingService& service,
                                                                                  const v1::SetResolutionRequest& request,
                                                                                  const Wake& wake) {
-    const Expected<RecordEncoding> encoding = wire::from_proto(request.encoding());
-    if (!encoding) return encoding.error();
+    const Expected<EncodingChoice> choice = wire::encoding_of(request);
+    if (!choice) return choice.error();
     const Expected<service::SessionSnapshot> session = service.snapshot(request.session());
     if (!session) return session.error();
     Expected<service::ResolutionPlan> plan = service::plan_resolution(
@@ -54,12 +108,18 @@ Expected<std::unique_ptr<MessageSource<v1::ProgressiveEvent>>> LevelSource::make
         wake();
     });
     if (!taken) return Error{Cause::kUnavailable, "the server is shutting down", ""};
-    return std::unique_ptr<MessageSource>(new LevelSource(LevelParts(*std::move(plan), *encoding), std::move(last)));
+    LevelParts parts(service, *std::move(plan), *choice, wake);
+    return std::unique_ptr<MessageSource>(new LevelSource(std::move(parts), std::move(last)));
 }
 
 LevelSource::Step LevelSource::next(v1::ProgressiveEvent& event, grpc::Status& end) {
     if (ended_) return Step::kEnd;
-    if (parts_.next(event)) return Step::kMessage;
+    const Expected<Step> step = parts_.next(event);
+    if (!step) {
+        end = wire::to_status(step.error());
+        return Step::kEnd;
+    }
+    if (*step != Step::kEnd) return *step;
     std::optional<Expected<v1::Representation>> last = last_->take();
     if (!last) return Step::kWait;
     ended_ = true;

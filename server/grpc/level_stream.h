@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "grpc/mailbox.h"
 #include "grpc/message_source.h"
@@ -9,25 +10,46 @@
 #include "service/resolution.h"
 #include "vsplit/mrr/record_block.h"
 #include "vsplit/v1/meshing.pb.h"
+#include "wire/base_mesh.h"
 
 namespace vsplit::rpc {
 
-/// The base mesh and the records of a plan, in parts.
+/// The base mesh and the records of a plan, in parts. What has to be worked out (all but FLOAT64) an errand does, a part ahead of
+/// the reader: beside what all readers share, a stream holds the message under way and the one after it.
 class LevelParts {
 public:
-    LevelParts(service::ResolutionPlan plan, RecordEncoding encoding);
+    using Step = MessageSource<v1::ProgressiveEvent>::Step;
 
-    /// False when there are no more. O(a part).
-    [[nodiscard]] bool next(v1::ProgressiveEvent& event);
+    /// `wake` is called when `next` said kWait and has more now. \pre the service outlives this.
+    LevelParts(service::MeshingService& service, service::ResolutionPlan plan, const EncodingChoice& choice, Wake wake);
+
+    /// kEnd when there are no more. O(a part). \return UNAVAILABLE; an error of the encoder.
+    [[nodiscard]] Expected<Step> next(v1::ProgressiveEvent& event);
 
 private:
-    void next_block(v1::ProgressiveEvent& event);
+    /// What an errand brings.
+    struct Made {
+        std::shared_ptr<service::EncodedRecords> encoded;
+        std::optional<wire::PackedBaseMesh> base;
+        service::EncodedRecords::Block block;
+    };
+    using MadeBox = Mailbox<Expected<Made>>;
 
-    const service::ResolutionPlan plan_;
-    const RecordEncoding encoding_;
+    [[nodiscard]] bool next_plain(v1::ProgressiveEvent& event);
+    [[nodiscard]] Status take_made();
+    [[nodiscard]] Status begin_errand();
+    void send(const RecordBlock& block, v1::ProgressiveEvent& event);
+
+    service::MeshingService* service_;
+    service::ResolutionPlan plan_;
+    EncodingChoice choice_;
+    Wake wake_;
     std::size_t base_part_ = 0;
     std::size_t base_parts_ = 0;
     std::size_t record_ = 0;
+    Made made_;
+    bool waiting_ = false;
+    std::shared_ptr<MadeBox> box_ = std::make_shared<MadeBox>();
 };
 
 /// SetResolution: parts, and last the representation, whose figures an errand works out meanwhile.

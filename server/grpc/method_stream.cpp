@@ -24,6 +24,8 @@ template <class Request>
 Expected<EventSourcePointer> MethodSource::begin(service::MeshingService& service, const Request& request, const Wake& wake) {
     const auto options = wire::from_proto(request.options());
     if (!options) return options.error();
+    const Expected<EncodingChoice> choice = wire::encoding_of(request);
+    if (!choice) return choice.error();
     auto news = std::make_shared<News>();
     service::JobEvents events;
     events.on_progress = [news, wake](const Progress& progress) {
@@ -37,7 +39,7 @@ Expected<EventSourcePointer> MethodSource::begin(service::MeshingService& servic
     const service::MeshRef source{request.source().representation(), request.source().faces()};
     Expected<service::RunningMethod> running = service.start(request.session(), {source, *options}, std::move(events));
     if (!running) return running.error();
-    return EventSourcePointer(new MethodSource(*std::move(running), std::move(news)));
+    return EventSourcePointer(new MethodSource(service, *std::move(running), std::move(news), *choice, wake));
 }
 
 void MethodSource::cancel() {
@@ -51,7 +53,7 @@ MethodSource::Step MethodSource::next(v1::ProgressiveEvent& event, grpc::Status&
         *event.mutable_progress() = wire::to_proto(Progress{"queued", 0, 0});
         return Step::kMessage;
     }
-    return parts_ ? next_part(event) : next_news(event, end);
+    return parts_ ? next_part(event, end) : next_news(event, end);
 }
 
 MethodSource::Step MethodSource::next_news(v1::ProgressiveEvent& event, grpc::Status& end) {
@@ -68,12 +70,17 @@ MethodSource::Step MethodSource::next_news(v1::ProgressiveEvent& event, grpc::St
         return Step::kEnd;
     }
     result_ = **outcome;
-    parts_.emplace(service::plan_from_nothing(result_, result_->level_for(0)), RecordEncoding::kFloat64);
-    return next_part(event);
+    parts_.emplace(service_, service::plan_from_nothing(result_, result_->level_for(0)), choice_, wake_);
+    return next_part(event, end);
 }
 
-MethodSource::Step MethodSource::next_part(v1::ProgressiveEvent& event) {
-    if (parts_->next(event)) return Step::kMessage;
+MethodSource::Step MethodSource::next_part(v1::ProgressiveEvent& event, grpc::Status& end) {
+    const Expected<Step> step = parts_->next(event);
+    if (!step) {
+        end = wire::to_status(step.error());
+        return Step::kEnd;
+    }
+    if (*step != Step::kEnd) return *step;
     ended_ = true;
     *event.mutable_representation() = to_proto(*result_);
     return Step::kMessage;

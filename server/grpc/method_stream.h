@@ -37,14 +37,18 @@ private:
     [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> begin(service::MeshingService& service, const Request& request,
                                                                         const Wake& wake);
 
-    MethodSource(service::RunningMethod running, std::shared_ptr<News> news)
-        : running_(std::move(running)), news_(std::move(news)) {}
+    MethodSource(service::MeshingService& service, service::RunningMethod running, std::shared_ptr<News> news,
+                 const EncodingChoice& choice, Wake wake)
+        : service_(service), running_(std::move(running)), news_(std::move(news)), choice_(choice), wake_(std::move(wake)) {}
 
     [[nodiscard]] Step next_news(v1::ProgressiveEvent& event, grpc::Status& end);
-    [[nodiscard]] Step next_part(v1::ProgressiveEvent& event);
+    [[nodiscard]] Step next_part(v1::ProgressiveEvent& event, grpc::Status& end);
 
+    service::MeshingService& service_;
     const service::RunningMethod running_;
     const std::shared_ptr<News> news_;
+    const EncodingChoice choice_;
+    const Wake wake_;
     service::SessionSnapshot::RepresentationPointer result_;
     std::optional<LevelParts> parts_;
     bool begun_ = false;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "service/encoded_records.h"
 #include "service/lru_cache.h"
 #include "service/method_request.h"
 #include "vsplit/mesh/triangle_mesh.h"
@@ -31,6 +32,9 @@ public:
     /// Heavy unless cached: O(records up to it). \pre level <= mrr().levels().
     [[nodiscard]] std::shared_ptr<const TriangleMesh> mesh(std::size_t level) const;
 
+    /// The records in an encoding; those asked for last are kept. Heavy unless kept: O(records). \pre as for EncodedRecords.
+    [[nodiscard]] std::shared_ptr<EncodedRecords> encoded(const EncodingChoice& choice) const;
+
     /// Heavy: O(records up to it + faces log faces). \pre as for `mesh`.
     [[nodiscard]] Quality quality(std::size_t level) const;
 
@@ -39,6 +43,7 @@ private:
     const MeshRef source_;
     const MethodResult result_;
     mutable LruCache<TriangleMesh> meshes_;
+    mutable LruCache<std::shared_ptr<EncodedRecords>> encoded_;
 };
 
 }  // namespace vsplit::service

@@ -237,9 +237,7 @@ TEST_F(MeshingClientTest, AHandlersErrorEndsTheCall) {
     };
     MeshingClient client = connected();
     EventHandlers handlers;
-    handlers.on_base_mesh = [](const TriangleMesh&, std::uint32_t) -> Status {
-        return Error{Cause::kFileAccess, "the disk is full", ""};
-    };
+    handlers.on_base_mesh = [](const StreamBase&) -> Status { return Error{Cause::kFileAccess, "the disk is full", ""}; };
     const auto made = client.improve(v1::ImproveRequest(), handlers);
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().cause, Cause::kFileAccess);

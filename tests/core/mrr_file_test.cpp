@@ -10,8 +10,10 @@
 #include "tests/core/edited_mrr.h"
 #include "tests/core/meshes.h"
 #include "tests/core/random.h"
+#include "vsplit/mrr/base_codec.h"
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/mrr/record_block.h"
+#include "vsplit/mrr/record_codec.h"
 
 namespace vsplit::test {
 namespace {
@@ -108,6 +110,43 @@ std::string documented_bytes(const fs::path& page) {
         while (words >> word && word != "|") bytes += static_cast<char>(std::stoul(word, nullptr, 16));
     }
     return bytes;
+}
+
+/// Those of the lines that begin with `mark`, an offset and a colon.
+std::string documented_bytes(const fs::path& page, char mark) {
+    std::ifstream file(page);
+    std::string bytes;
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string word;
+        if (!(words >> word) || word.size() != 4 || word.front() != mark || word.back() != ':') continue;
+        EXPECT_EQ(std::stoul(word.substr(1), nullptr, 16), bytes.size()) << line;
+        while (words >> word && word != "|") bytes += static_cast<char>(std::stoul(word, nullptr, 16));
+    }
+    return bytes;
+}
+
+TEST(MrrFileTest, WorkedExampleOfTheQuantisedEncodingIsWhatIsMade) {
+    const MultiresMesh mrr{documented_base(), documented_records()};
+    const PositionGrid grid = *PositionGrid::over(mrr, {RecordEncoding::kQuantised, 14});
+    const TriangleMesh base = on_grid(mrr, grid).base;
+    const std::string packed = documented_bytes(data_file("../../docs/format.md"), '=');
+    EXPECT_EQ(packed, pack_base(base, 0, grid));
+    const auto unpacked = unpack_base({std::as_bytes(std::span(packed)), 4, 4, 0}, grid);
+    ASSERT_TRUE(unpacked) << unpacked.error().message;
+    EXPECT_EQ(*unpacked, base);
+
+    const std::string payload = documented_bytes(data_file("../../docs/format.md"), '+');
+    ProgressiveMesh mesh = *ProgressiveMesh::from_base(base);
+    RecordCodec codec(grid);
+    const auto block = codec.encode(mrr.records, 0, mrr.records.size(), mesh);
+    ASSERT_TRUE(block);
+    EXPECT_EQ(payload, block->payload);
+    ProgressiveMesh decoded = *ProgressiveMesh::from_base(base);
+    RecordList records;
+    const RecordBlock printed{0, 4, RecordEncoding::kQuantised, payload, crc32c(std::as_bytes(std::span(payload)))};
+    ASSERT_TRUE(codec.decode(printed, decoded, &records));
+    EXPECT_EQ(records, on_grid(mrr, grid).records);
 }
 
 TEST(MrrFileTest, WorkedExampleOfTheFormatPageIsWhatIsWritten) {

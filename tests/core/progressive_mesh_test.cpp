@@ -294,5 +294,25 @@ TEST(ProgressiveMeshTest, RefusesBasesThatAreNoClosedManifold) {
     EXPECT_EQ(ProgressiveMesh::from_base({}).error().cause, Cause::kEmptyInput);
 }
 
+TEST(ProgressiveMeshTest, KnowsACornerOfEveryVertexWhereverItStands) {
+    using namespace test;
+    const MultiresMesh mrr = edited_mrr(punctured(torus(16, 10), {0, 35, 70, 105}), 150, 7).mrr;
+    ProgressiveMesh mesh = *ProgressiveMesh::from_base(mrr.base, mrr.ghosts);
+    Random random(5);
+    for (int step = 0; step < 300; ++step) {
+        const std::uint32_t to = random.below(static_cast<std::uint32_t>(mrr.records.size()) + 1);
+        if (to < mesh.records()) {
+            mesh.rewind(to);
+        } else {
+            ASSERT_TRUE(mesh.refine(mrr.records.slice(mesh.records(), to - mesh.records())));
+        }
+        for (std::uint32_t v = 0; v < mesh.mesh().vertex_count(); ++v) {
+            const std::uint32_t corner = mesh.corner_of(v);
+            ASSERT_LT(corner, 3 * mesh.mesh().face_count()) << "vertex " << v;
+            ASSERT_EQ(mesh.mesh().faces[corner / 3][corner % 3], v);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace vsplit

@@ -38,6 +38,11 @@ std::shared_ptr<grpc::Channel> create_channel(const std::string& target) {
     grpc::ChannelArguments arguments;
     arguments.SetMaxReceiveMessageSize(kMaxMessage);
     arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);  // a proxy for the web must not come between a client and its own machine
+    // A connection that broke is tried again soon: who waits holds half a stream.
+    constexpr int kFirstMs = 50, kLongestMs = 2000;
+    arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kFirstMs);
+    arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, kFirstMs);
+    arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kLongestMs);
     return grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments);
 }
 

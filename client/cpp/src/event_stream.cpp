@@ -11,17 +11,15 @@ Status EventStream::take_base(const v1::BaseMesh& part) {
     if (!base_) base_.emplace();
     if (Status added = base_->add(part); !added) return added;
     if (!base_->complete() || !handlers_.on_base_mesh) return Done{};
-    return handlers_.on_base_mesh(base_->take(), base_->ghosts());
+    return handlers_.on_base_mesh({base_->take(), base_->ghosts(), base_->grid(), base_->max_error()});
 }
 
 Status EventStream::take_block(v1::RecordBlock message) {
     if (base_ && !base_->complete()) return Error{Cause::kOutOfOrder, "records came before the end of the base mesh", ""};
-    if (!handlers_.on_records) return Done{};
+    if (!handlers_.on_block) return Done{};
     const Expected<RecordBlock> block = wire::from_proto(std::move(message));
     if (!block) return block.error();
-    const Expected<RecordList> records = decode_block(*block);
-    if (!records) return records.error();
-    return handlers_.on_records(block->first, *records);
+    return handlers_.on_block(*block);
 }
 
 Status EventStream::take(v1::ProgressiveEvent event) {

@@ -14,8 +14,15 @@ Error too_many(std::uint64_t faces, std::uint32_t limit) {
 }  // namespace
 
 EventHandlers MeshReceiver::handlers(std::function<void(const v1::Progress&)> on_progress) {
-    return {std::move(on_progress), [this](TriangleMesh base, std::uint32_t ghosts) { return begin(std::move(base), ghosts); },
-            [this](std::uint32_t first, const RecordSpan& records) { return append(first, records); }};
+    return {std::move(on_progress), [this](StreamBase base) { return begin(std::move(base)); },
+            [this](const RecordBlock& block) { return append(block); }};
+}
+
+Status MeshReceiver::begin(StreamBase base) {
+    if (Status begun = begin(std::move(base.mesh), base.ghosts); !begun) return begun;
+    codec_ = RecordCodec(base.grid);
+    max_error_ = base.max_error;
+    return Done{};
 }
 
 Status MeshReceiver::begin(TriangleMesh base, std::uint32_t ghosts) {
@@ -26,15 +33,34 @@ Status MeshReceiver::begin(TriangleMesh base, std::uint32_t ghosts) {
     held_ = {std::move(base), {}, ghosts, ghost_faces, {}};
     progressive_ = *std::move(mesh);
     visible_records_.reset();
+    codec_ = RecordCodec();
+    max_error_ = 0;
+    return Done{};
+}
+
+Status MeshReceiver::check_place(std::uint32_t first) const {
+    if (!has_mesh()) return Error{Cause::kOutOfOrder, "records came without a base mesh", ""};
+    if (first == records_held()) return Done{};
+    return Error{Cause::kOutOfOrder,
+                 "a block begins at record " + std::to_string(first) + ", expected is " + std::to_string(records_held()), ""};
+}
+
+Status MeshReceiver::append(const RecordBlock& block) {
+    if (Status placed = check_place(block.first); !placed) return placed;
+    const std::size_t before = held_.records.size();
+    if (Status shown = show_records(before); !shown) return shown;
+    if (Status decoded = codec_.decode(block, *progressive_, &held_.records); !decoded) return decoded;
+    if (const std::uint32_t faces = progressive_->mesh().face_count(); faces > max_faces_) {
+        progressive_->rewind(before);
+        held_.records.truncate(before);
+        return too_many(faces, max_faces_);
+    }
+    held_.border_splits = progressive_->border_splits();
     return Done{};
 }
 
 Status MeshReceiver::append(std::uint32_t first, const RecordSpan& records) {
-    if (!has_mesh()) return Error{Cause::kOutOfOrder, "records came without a base mesh", ""};
-    if (first != records_held()) {
-        return Error{Cause::kOutOfOrder,
-                     "a block begins at record " + std::to_string(first) + ", expected is " + std::to_string(records_held()), ""};
-    }
+    if (Status placed = check_place(first); !placed) return placed;
     const std::uint64_t faces = held_.base.face_count() + 2 * (std::uint64_t{held_.levels()} + records.splits.size());
     if (faces > max_faces_) return too_many(faces, max_faces_);
     if (Status shown = show_records(held_.records.size()); !shown) return shown;

@@ -68,6 +68,8 @@ Expected<ProgressiveMesh> ProgressiveMesh::from_base(TriangleMesh base, std::uin
     if (Status valid = check_ghosts(base, ghosts); !valid) return valid.error();
     ProgressiveMesh result;
     result.twin_ = half_edge_twins(base);
+    result.corner_of_.resize(base.positions.size(), kNone);
+    for (HalfEdge h = 0; h < result.twin_.size(); ++h) result.corner_of_[origin(base, h)] = h;
     result.mesh_ = std::move(base);
     result.ghosts_ = ghosts;
     return result;
@@ -165,14 +167,23 @@ Status ProgressiveMesh::take(const AnyRecord& record) {
     return Done{};
 }
 
+template Status ProgressiveMesh::take(const VertexSplit& record);
+template Status ProgressiveMesh::take(const EdgeFlip& record);
+template Status ProgressiveMesh::take(const VertexMove& record);
+
+void ProgressiveMesh::reserve(std::size_t splits, std::size_t flips, std::size_t moves) {
+    make_room(mesh_.positions, splits);
+    make_room(mesh_.faces, 2 * splits);
+    make_room(twin_, 6 * splits);
+    make_room(corner_of_, splits);
+    make_room(applied_, splits + flips + moves);
+    make_room(edited_, flips + moves);
+    make_room(lay_, splits + moves);
+}
+
 Status ProgressiveMesh::refine(const RecordSpan& records) {
     assert(records.consistent());
-    make_room(mesh_.positions, records.splits.size());
-    make_room(mesh_.faces, 2 * records.splits.size());
-    make_room(twin_, 6 * records.splits.size());
-    make_room(applied_, records.size());
-    make_room(edited_, records.flips.size() + records.moves.size());
-    make_room(lay_, records.splits.size() + records.moves.size());
+    reserve(records.splits.size(), records.flips.size(), records.moves.size());
     auto split = records.splits.begin();
     auto flip = records.flips.begin();
     auto move = records.moves.begin();
@@ -183,8 +194,16 @@ Status ProgressiveMesh::refine(const RecordSpan& records) {
     return Done{};
 }
 
+/// The six corners of the faces beside an edge that was turned.
+void ProgressiveMesh::note_corners_beside(HalfEdge half_edge) {
+    for (const HalfEdge side : {half_edge, twin_[half_edge]}) {
+        for (const HalfEdge corner : {side, next(side), prev(side)}) corner_of_[origin(mesh_, corner)] = corner;
+    }
+}
+
 void ProgressiveMesh::apply(EdgeFlip flip) {
     turn_clockwise(mesh_, twin_, flip.half_edge);
+    note_corners_beside(flip.half_edge);
     edited_.push_back(flip.half_edge);
     applied_.push_back(RecordKind::kFlip);
 }
@@ -224,6 +243,8 @@ void ProgressiveMesh::apply(const VertexSplit& split) {
     twin_[before] = vb;
     twin_[fan_begin] = bw;
 
+    corner_of_[v] = first;
+    corner_of_.push_back(first + 1);
     lay_.push_back(mesh_.positions[v]);
     mesh_.positions[v] = split.kept;
     mesh_.positions.push_back(split.added);
@@ -250,6 +271,9 @@ void ProgressiveMesh::undo_split() {
     twin_.resize(first);
     mesh_.faces.resize(mesh_.faces.size() - 2);
     mesh_.positions.pop_back();
+    corner_of_.pop_back();
+    // A flip may have left e or b with a corner of the faces that go.
+    for (const HalfEdge corner : {fan_begin, fan_end, before}) corner_of_[origin(mesh_, corner)] = corner;
     mesh_.positions[v] = lay_.back();
     lay_.pop_back();
     --level_;
@@ -267,6 +291,7 @@ void ProgressiveMesh::undo_last() {
     edited_.pop_back();
     if (kind == RecordKind::kFlip) {
         turn_counter_clockwise(mesh_, twin_, edited);
+        note_corners_beside(edited);
         return;
     }
     mesh_.positions[edited] = lay_.back();

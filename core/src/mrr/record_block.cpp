@@ -1,10 +1,10 @@
 #include "vsplit/mrr/record_block.h"
 
-#include <boost/crc.hpp>
 #include <cassert>
 #include <limits>
 
 #include "base/byte_order.h"
+#include "mrr/block_checks.h"
 
 namespace vsplit {
 namespace {
@@ -45,51 +45,60 @@ Vec3 load_point(const std::byte* from) {
     return {load<double>(from), load<double>(from + sizeof(double)), load<double>(from + 2 * sizeof(double))};
 }
 
-Error corrupt(const RecordBlock& block, const std::string& what) {
+}  // namespace
+
+Error corrupt_block(const RecordBlock& block, const std::string& what) {
     return {Cause::kCorrupt, "record block from record " + std::to_string(block.first) + " on: " + what, ""};
 }
 
 Status check_block(const RecordBlock& block) {
-    if (block.encoding != RecordEncoding::kFloat64) {
-        return corrupt(block,
-                       "encoding " + std::to_string(static_cast<std::uint32_t>(block.encoding)) + " is unknown; 1 (float64) is");
-    }
     if (block.payload.size() > kMaxBlockBytes) {
-        return corrupt(block, std::to_string(block.payload.size()) + " bytes are more than the " +
-                                  std::to_string(kMaxBlockBytes) + " a block may have");
-    }
-    if (Columns::padded(block.count) > block.payload.size()) {
-        return corrupt(block, std::to_string(block.count) + " records take at least " +
-                                  std::to_string(Columns::padded(block.count)) + " bytes, and there are " +
-                                  std::to_string(block.payload.size()));
+        return corrupt_block(block, std::to_string(block.payload.size()) + " bytes are more than the " +
+                                        std::to_string(kMaxBlockBytes) + " a block may have");
     }
     if (block.count > std::numeric_limits<std::uint32_t>::max() - block.first) {
-        return corrupt(block, "record numbers go beyond 32 bits");
+        return corrupt_block(block, "record numbers go beyond 32 bits");
     }
     if (crc32c(bytes_of(block.payload)) != block.crc32c) {
-        return corrupt(block, "the CRC-32C of the payload is " + std::to_string(crc32c(bytes_of(block.payload))) + ", not " +
-                                  std::to_string(block.crc32c) + " as the block says");
+        return corrupt_block(block, "the CRC-32C of the payload is " + std::to_string(crc32c(bytes_of(block.payload))) +
+                                        ", not " + std::to_string(block.crc32c) + " as the block says");
     }
     return Done{};
 }
 
-/// Counts the kinds of a block, whose columns follow from that. \pre check_block(block).
+namespace {
+
+/// What holds for kFloat64 alone, before anything is read.
+Status check_plain(const RecordBlock& block) {
+    if (block.encoding != RecordEncoding::kFloat64) {
+        return corrupt_block(block, "encoding " + std::to_string(static_cast<std::uint32_t>(block.encoding)) +
+                                        " cannot be decoded without a mesh; 1 (float64) can");
+    }
+    if (Columns::padded(block.count) > block.payload.size()) {
+        return corrupt_block(block, std::to_string(block.count) + " records take at least " +
+                                        std::to_string(Columns::padded(block.count)) + " bytes, and there are " +
+                                        std::to_string(block.payload.size()));
+    }
+    return check_block(block);
+}
+
+/// Counts the kinds of a block, whose columns follow from that. \pre check_plain(block).
 Expected<Columns> read_kinds(const RecordBlock& block) {
     Columns columns;
     for (std::size_t n = 0; n < Columns::padded(block.count); ++n) {
         const auto kind = static_cast<std::uint8_t>(block.payload[n]);
-        if (n >= block.count && kind != 0) return corrupt(block, "the bytes that fill up the kinds are not 0");
+        if (n >= block.count && kind != 0) return corrupt_block(block, "the bytes that fill up the kinds are not 0");
         if (n >= block.count) continue;
         if (kind > static_cast<std::uint8_t>(RecordKind::kMove)) {
-            return corrupt(block, "record " + std::to_string(block.first + n) + " is of kind " + std::to_string(kind) +
-                                      "; known are 0 (split), 1 (flip) and 2 (move)");
+            return corrupt_block(block, "record " + std::to_string(block.first + n) + " is of kind " + std::to_string(kind) +
+                                            "; known are 0 (split), 1 (flip) and 2 (move)");
         }
         columns.add(RecordKind{kind});
     }
     if (columns.bytes() == block.payload.size()) return columns;
-    return corrupt(block, std::to_string(columns.splits) + " splits, " + std::to_string(columns.flips) + " flips and " +
-                              std::to_string(columns.moves) + " moves take " + std::to_string(columns.bytes()) + " bytes, not " +
-                              std::to_string(block.payload.size()));
+    return corrupt_block(block, std::to_string(columns.splits) + " splits, " + std::to_string(columns.flips) + " flips and " +
+                                    std::to_string(columns.moves) + " moves take " + std::to_string(columns.bytes()) +
+                                    " bytes, not " + std::to_string(block.payload.size()));
 }
 
 }  // namespace
@@ -131,7 +140,7 @@ RecordBlock encode_block(const RecordSpan& records, std::uint32_t first, RecordE
 }
 
 Expected<RecordList> decode_block(const RecordBlock& block) {
-    if (const Status status = check_block(block); !status) return status.error();
+    if (const Status status = check_plain(block); !status) return status.error();
     const Expected<Columns> columns = read_kinds(block);
     if (!columns) return columns.error();
     const std::byte* const payload = bytes_of(block.payload).data();
@@ -154,12 +163,6 @@ Expected<RecordList> decode_block(const RecordBlock& block) {
         read.add(kind);
     }
     return records;
-}
-
-std::uint32_t crc32c(std::span<const std::byte> bytes) {
-    boost::crc_optimal<32, 0x1EDC6F41, 0xFFFFFFFF, 0xFFFFFFFF, true, true> crc;
-    crc.process_bytes(bytes.data(), bytes.size());
-    return crc.checksum();
 }
 
 }  // namespace vsplit

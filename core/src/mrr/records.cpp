@@ -72,6 +72,16 @@ void RecordList::reserve(std::size_t splits, std::size_t flips, std::size_t move
 
 void RecordList::clear() { *this = {}; }
 
+void RecordList::truncate(std::size_t records) {
+    assert(records <= size());
+    all_ = before(records);
+    kinds_.resize(records);
+    splits_.resize(all_.splits);
+    flips_.resize(all_.flips);
+    moves_.resize(all_.moves);
+    marks_.resize((records + kMarkEvery - 1) / kMarkEvery);
+}
+
 RecordList::Counts RecordList::before(std::size_t record) const {
     if (record == size()) return all_;
     const std::size_t mark = record / kMarkEvery;

@@ -1,7 +1,10 @@
 #include "simplify/collapse_log.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
+
+#include "mrr/face_walk.h"
 
 namespace vsplit {
 namespace {
@@ -31,21 +34,28 @@ public:
     Builder(const HalfEdgeMesh& mesh, std::uint32_t ghosts)
         : vertex_(mesh.vertex_count(), kNone), half_edge_(mesh.half_edge_count()) {
         mrr_.ghosts = ghosts;
-        for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-            if (mesh.outgoing(v) == kNone) continue;
-            vertex_[v] = mrr_.base.vertex_count();
-            mrr_.base.positions.push_back(mesh.position(v));
-        }
-        for (HalfEdge h = 0; h < mesh.half_edge_count(); h += 3) {
-            if (mesh.removed(h)) continue;
+        const auto is_there = [&mesh](std::uint32_t face) { return !mesh.removed(3 * face); };
+        const auto twin = [&mesh](HalfEdge h) { return mesh.twin(h); };
+        for (std::uint32_t v = 0; v < ghosts; ++v) number(mesh, v);
+        for (const HalfEdge h : walk_faces(mesh.half_edge_count() / 3, is_there, twin)) {
             half_edge_.set_face(h, mrr_.base.face_count());
-            mrr_.base.faces.push_back({vertex_[mesh.origin(h)], vertex_[mesh.origin(h + 1)], vertex_[mesh.origin(h + 2)]});
+            for (const HalfEdge corner : {h, next(h), prev(h)}) number(mesh, mesh.origin(corner));
+            mrr_.base.faces.push_back({vertex_[mesh.origin(h)], vertex_[mesh.target(h)], vertex_[mesh.origin(prev(h))]});
         }
         mrr_.ghost_faces = count_ghost_faces(mrr_.base, ghosts);
     }
 
+    void add_moves(std::span<const VertexMove> moves) {
+        moves_.clear();
+        for (const VertexMove& move : moves) moves_.push_back({vertex_[move.vertex], move.position});
+        const auto by_vertex = [](const VertexMove& left, const VertexMove& right) { return left.vertex < right.vertex; };
+        std::sort(moves_.begin(), moves_.end(), by_vertex);  // each is moved once
+        for (const VertexMove& move : moves_) mrr_.records.push_back(move);
+    }
     void add_flip(HalfEdge h) { mrr_.records.push_back(EdgeFlip{half_edge_[h]}); }
-    void add_move(const VertexMove& move) { mrr_.records.push_back(VertexMove{vertex_[move.vertex], move.position}); }
+
+    /// Vertex `left` of the mesh stood for both until now; from here on it is `kept`.
+    void give_number(std::uint32_t left, std::uint32_t kept) { vertex_[kept] = vertex_[left]; }
 
     /// The faces of ij and ji come back, and vertex `removed`. The anchor's face was alive when the collapse was made, so it is
     /// numbered by now.
@@ -62,7 +72,14 @@ public:
     [[nodiscard]] MultiresMesh& mrr() { return mrr_; }
 
 private:
+    void number(const HalfEdgeMesh& mesh, std::uint32_t v) {
+        if (vertex_[v] != kNone || mesh.outgoing(v) == kNone) return;
+        vertex_[v] = mrr_.base.vertex_count();
+        mrr_.base.positions.push_back(mesh.position(v));
+    }
+
     MultiresMesh mrr_;
+    std::vector<VertexMove> moves_;
     std::vector<std::uint32_t> vertex_;
     Renumbering half_edge_;
 };
@@ -73,18 +90,21 @@ void CollapseLog::record(const HalfEdgeMesh& mesh, const EdgeStar& star) {
     keep_net_moves(mesh);
     const std::uint32_t i = mesh.origin(star.ij);
     const std::uint32_t j = mesh.origin(star.ji);
+    const std::uint32_t valence_i = mesh.valence(i), valence_j = mesh.valence(j);
+    const bool is_j_new = valence_j <= valence_i;
     Entry entry;
-    entry.ij = star.ij;
-    entry.ji = star.ji;
-    entry.anchor = star.jb;
-    entry.kept = i;
-    entry.removed = j;
-    entry.steps = mesh.valence(j) - 2;
+    entry.ij = is_j_new ? star.ij : star.ji;
+    entry.ji = is_j_new ? star.ji : star.ij;
+    entry.anchor = is_j_new ? star.jb : star.ie;
+    entry.kept = is_j_new ? i : j;
+    entry.removed = is_j_new ? j : i;
+    entry.left = i;
+    entry.steps = std::min(valence_i, valence_j) - 2;
     entry.least_wing = std::min(mesh.origin(star.ei), mesh.origin(star.bj));
     entry.first_flip = static_cast<std::uint32_t>(flips_.size());
     entry.first_move = static_cast<std::uint32_t>(moves_.size());
-    entry.kept_at = mesh.position(i);
-    entry.removed_at = mesh.position(j);
+    entry.kept_at = mesh.position(entry.kept);
+    entry.removed_at = mesh.position(entry.removed);
     entries_.push_back(entry);
 }
 
@@ -93,7 +113,7 @@ void CollapseLog::record_flip(HalfEdge h) {
 }
 
 void CollapseLog::record_move(std::uint32_t v, const Vec3& before) {
-    if (entries_.empty() || v == entries_.back().kept) return;
+    if (entries_.empty() || v == entries_.back().left) return;
     if (v >= moved_in_.size()) moved_in_.resize(std::max<std::size_t>(v + std::size_t{1}, 2 * moved_in_.size()), 0);
     const auto step = static_cast<std::uint32_t>(entries_.size());
     if (std::exchange(moved_in_[v], step) != step) moves_.push_back({v, before});
@@ -113,8 +133,9 @@ MultiresMesh CollapseLog::build(const HalfEdgeMesh& mesh, std::uint32_t ghosts) 
     for (; !entries_.empty(); entries_.pop_back()) {
         const Entry& entry = entries_.back();
         for (; flips_.size() > entry.first_flip; flips_.pop_back()) builder.add_flip(flips_.back());
-        for (std::size_t m = entry.first_move; m < moves_.size(); ++m) builder.add_move(moves_[m]);
+        builder.add_moves(std::span(moves_).subspan(entry.first_move));
         moves_.resize(entry.first_move);
+        builder.give_number(entry.left, entry.kept);
         if (entry.least_wing < ghosts) builder.mrr().border_splits.push_back(static_cast<std::uint32_t>(builder.mrr().levels()));
         builder.add_split({entry.anchor, entry.steps, entry.kept_at, entry.removed_at}, entry.ij, entry.ji, entry.removed);
     }

@@ -17,7 +17,7 @@ namespace vsplit {
 ///     draw(mesh->visible());
 ///
 /// Records may come from the network: each is checked against the mesh before anything is changed.
-/// Not thread-safe; distinct objects are independent. Memory: 24 bytes a face for connectivity, 24 a vertex for positions, and
+/// Not thread-safe; distinct objects are independent. Memory: 24 bytes a face for connectivity, 28 a vertex, and
 /// for undoing 25 a split, 5 a flip, 29 a move.
 class ProgressiveMesh {
 public:
@@ -35,6 +35,14 @@ public:
     /// \return CORRUPT naming the record's number; the mesh then stands as the records before it left it. O(records * ring).
     /// \pre records.consistent().
     [[nodiscard]] Status refine(const RecordSpan& records);
+
+    /// One record; otherwise as above. O(ring).
+    [[nodiscard]] Status refine(const VertexSplit& split) { return take(split); }
+    [[nodiscard]] Status refine(EdgeFlip flip) { return take(flip); }
+    [[nodiscard]] Status refine(const VertexMove& move) { return take(move); }
+
+    /// Makes room for so many records more at once.
+    void reserve(std::size_t splits, std::size_t flips, std::size_t moves);
 
     /// Undoes the edits after the last split, then the last `levels` splits, at most all, each with the edits before it: the mesh
     /// is a level again. O(records undone * ring). Needs no records.
@@ -57,8 +65,24 @@ public:
 
     [[nodiscard]] std::uint32_t ghosts() const { return ghosts_; }
 
+    /// Of the half-edge that leaves a corner, the one that runs back.
+    [[nodiscard]] const std::vector<std::uint32_t>& twins() const { return twin_; }
+
+    /// A corner at a vertex; which one depends on how the mesh was reached. \pre vertex < mesh().vertex_count().
+    [[nodiscard]] std::uint32_t corner_of(std::uint32_t vertex) const { return corner_of_[vertex]; }
+
     /// Splits applied so far that added one visible face; see MultiresMesh.
     [[nodiscard]] const std::vector<std::uint32_t>& border_splits() const { return border_splits_; }
+
+    /// Ask for the memory that a vertex, or the face of a corner, lies in; harmless where that is not needed after all.
+    void prefetch_vertex(std::uint32_t vertex) const {
+        __builtin_prefetch(corner_of_.data() + vertex);
+        __builtin_prefetch(mesh_.positions.data() + vertex);
+    }
+    void prefetch_corner(std::uint32_t corner) const {
+        __builtin_prefetch(mesh_.faces.data() + corner / 3);
+        __builtin_prefetch(twin_.data() + corner);
+    }
 
 private:
     ProgressiveMesh() = default;
@@ -76,11 +100,14 @@ private:
     template <class AnyRecord>
     [[nodiscard]] Status take(const AnyRecord& record);
 
+    void note_corners_beside(std::uint32_t half_edge);
+
     void undo_split();
     void undo_last();
 
     TriangleMesh mesh_;
-    std::vector<std::uint32_t> twin_;  // of half-edge 3f + c, which leaves corner c of face f along it
+    std::vector<std::uint32_t> twin_;       // of half-edge 3f + c, which leaves corner c of face f along it
+    std::vector<std::uint32_t> corner_of_;  // of each vertex
     std::uint32_t ghosts_ = 0;
     std::size_t level_ = 0;
     std::vector<std::uint32_t> border_splits_;

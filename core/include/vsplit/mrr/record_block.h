@@ -6,14 +6,10 @@
 #include <string>
 
 #include "vsplit/base/expected.h"
+#include "vsplit/mrr/position_grid.h"
 #include "vsplit/mrr/records.h"
 
 namespace vsplit {
-
-/// How the records of a block are laid out as bytes (docs/format.md).
-enum class RecordEncoding : std::uint32_t {
-    kFloat64 = 1,  ///< bit-exact columns, little-endian: 57 bytes a split, 5 a flip, 29 a move
-};
 
 /// Bytes that a record adds to a block of the encoding kFloat64, beside at most 7 that fill up a block.
 [[nodiscard]] constexpr std::size_t record_bytes(RecordKind kind) {
@@ -32,14 +28,15 @@ struct RecordBlock {
 /// No block's payload is larger.
 inline constexpr std::size_t kMaxBlockBytes = std::size_t{256} * 1024;
 
-/// How many of `records`, from the first on, fit one block of this encoding; not 0 unless there are none. O(the count).
+/// How many of `records`, from the first on, fit one block of the encoding kFloat64; not 0 unless there are none. O(the count).
+/// \pre encoding is kFloat64, the only one that needs no mesh: for any other see RecordCodec.
 [[nodiscard]] std::size_t records_that_fit(const RecordSpan& records, RecordEncoding encoding);
 
 /// \pre records.consistent(), and records_that_fit(records, encoding) is records.size(). O(records).
 [[nodiscard]] RecordBlock encode_block(const RecordSpan& records, std::uint32_t first, RecordEncoding encoding);
 
-/// \return CORRUPT naming the block by its first record, when the checksum, the size, a kind or the encoding does not fit.
-/// Whether the records fit a mesh is for ProgressiveMesh::refine to say. O(records).
+/// Of the encoding kFloat64. \return CORRUPT naming the block by its first record, when the checksum, the size, a kind or the
+/// encoding does not fit. Whether the records fit a mesh is for ProgressiveMesh::refine to say. O(records).
 [[nodiscard]] Expected<RecordList> decode_block(const RecordBlock& block);
 
 /// CRC-32C of bytes.

@@ -64,6 +64,23 @@ struct RecordSpan {
     [[nodiscard]] bool consistent() const;
 };
 
+/// Calls visit(const VertexSplit&), visit(EdgeFlip) or visit(const VertexMove&) for each in order. \pre records.consistent().
+template <class Visit>
+void for_each_record(const RecordSpan& records, Visit visit) {
+    auto split = records.splits.begin();
+    auto flip = records.flips.begin();
+    auto move = records.moves.begin();
+    for (const RecordKind kind : records.kinds) {
+        if (kind == RecordKind::kSplit) {
+            visit(*split++);
+        } else if (kind == RecordKind::kFlip) {
+            visit(*flip++);
+        } else {
+            visit(*move++);
+        }
+    }
+}
+
 /// Records in order, 57 bytes a split, 5 a flip, 33 a move. Any run of them is at hand at once.
 class RecordList {
 public:
@@ -80,6 +97,9 @@ public:
 
     void reserve(std::size_t splits, std::size_t flips, std::size_t moves);
     void clear();
+
+    /// Drops all records but the first `records`. \pre records <= size(). O(1): at most 255 kinds are counted.
+    void truncate(std::size_t records);
 
     [[nodiscard]] std::size_t size() const { return kinds_.size(); }
     [[nodiscard]] bool empty() const { return kinds_.empty(); }

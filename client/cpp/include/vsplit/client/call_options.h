@@ -10,6 +10,7 @@
 #include "vsplit/io/mesh_format.h"
 #include "vsplit/mesh/triangle_mesh.h"
 #include "vsplit/mrr/multires_mesh.h"
+#include "vsplit/mrr/record_block.h"
 #include "vsplit/v1/meshing.pb.h"
 
 namespace vsplit::client {
@@ -36,14 +37,22 @@ struct UploadOptions {
     std::function<void(std::uint64_t sent, std::uint64_t total)> on_progress;  ///< bytes; called on the caller's thread
 };
 
+/// What a stream begins with.
+struct StreamBase {
+    TriangleMesh mesh;         ///< the coarsest, its positions on `grid`
+    std::uint32_t ghosts = 0;  ///< how many of its first vertices close boundaries; see MultiresMesh
+    PositionGrid grid;         ///< the positions that the stream's encoding can hold
+    double max_error = 0;      ///< no coordinate of the stream differs from the exact one by more; model units
+};
+
 /// Who hears of a stream's events, on the thread that made the call. Empty handlers are skipped. A handler that returns an error
 /// ends the call with that error.
 struct EventHandlers {
     std::function<void(const v1::Progress&)> on_progress;
-    /// Once, whole, before any record; sizes are checked, indices and `ghosts` (see MultiresMesh) are not.
-    std::function<Status(TriangleMesh base, std::uint32_t ghosts)> on_base_mesh;
-    /// A block, its checksum verified; `first` is the number of its first record.
-    std::function<Status(std::uint32_t first, const RecordSpan& records)> on_records;
+    /// Once, whole, before any record; sizes are checked, indices and `ghosts` are not.
+    std::function<Status(StreamBase base)> on_base_mesh;
+    /// A block as it came; RecordCodec decodes it, on the mesh that the base and the blocks before it made.
+    std::function<Status(const RecordBlock& block)> on_block;
 };
 
 }  // namespace vsplit::client

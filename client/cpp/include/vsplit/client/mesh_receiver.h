@@ -8,6 +8,7 @@
 #include "vsplit/client/call_options.h"
 #include "vsplit/mrr/multires_mesh.h"
 #include "vsplit/mrr/progressive_mesh.h"
+#include "vsplit/mrr/record_codec.h"
 
 namespace vsplit::client {
 
@@ -28,8 +29,15 @@ public:
     /// Handlers that feed this object, which must outlive them.
     [[nodiscard]] EventHandlers handlers(std::function<void(const v1::Progress&)> on_progress = {});
 
-    /// Starts anew with a base mesh. \return what ProgressiveMesh::from_base returns, LIMIT_EXCEEDED.
+    /// Starts anew with a stream's base mesh. \return what the next returns.
+    [[nodiscard]] Status begin(StreamBase base);
+
+    /// The same with one of FLOAT64. \return what ProgressiveMesh::from_base returns, LIMIT_EXCEEDED.
     [[nodiscard]] Status begin(TriangleMesh base, std::uint32_t ghosts = 0);
+
+    /// Adds a block's records and shows them. \return OUT_OF_ORDER when its first record is not the number of records held, that
+    /// is also for a block that is repeated or left out; CORRUPT naming the block by its first record; LIMIT_EXCEEDED.
+    [[nodiscard]] Status append(const RecordBlock& block);
 
     /// Adds records and shows them; a run may end between two splits. \return OUT_OF_ORDER when `first` is not the number of
     /// records held or no base mesh came before; CORRUPT for a record that does not fit the mesh; LIMIT_EXCEEDED.
@@ -51,13 +59,22 @@ public:
     /// is that of the last call. O(1), O(faces) after a change where there are open boundaries.
     [[nodiscard]] const TriangleMesh& mesh() const;
 
+    /// The encoding that what is held came in, and must go on in.
+    [[nodiscard]] EncodingChoice encoding() const { return {codec_.grid().encoding(), codec_.grid().bits()}; }
+
+    /// No coordinate differs from the exact one by more; model units.
+    [[nodiscard]] double max_error() const { return max_error_; }
+
     /// All that has come.
     [[nodiscard]] const MultiresMesh& held() const { return held_; }
 
 private:
     [[nodiscard]] Status show_records(std::size_t records);
+    [[nodiscard]] Status check_place(std::uint32_t first) const;
 
     std::uint32_t max_faces_;
+    RecordCodec codec_;
+    double max_error_ = 0;
     MultiresMesh held_;
     std::optional<ProgressiveMesh> progressive_;
     mutable std::optional<std::size_t> visible_records_;  // what visible_ shows; only with ghosts

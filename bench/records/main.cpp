@@ -1,0 +1,177 @@
+// Sizes and speeds of the encodings of records, against mesh files and mesh codecs, on .vsplit files: tables in Markdown.
+// bench_records FILE...; bench_records --stream FILE prints the stream at 14 bits instead.
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <vector>
+
+#include "vsplit/io/write_mesh.h"
+#include "vsplit/mrr/base_codec.h"
+#include "vsplit/mrr/mrr_file.h"
+#include "vsplit/mrr/record_codec.h"
+
+namespace {
+
+using namespace vsplit;
+
+/// Of this process: others on the machine do not count.
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+struct Figures {
+    std::size_t base = 0, records = 0;
+    double encode = 0, decode = 0;  ///< seconds
+};
+
+/// What goes over the wire up to a level, and how long it takes at both ends.
+Figures measure(const MultiresMesh& mrr, const EncodingChoice& choice, std::size_t level) {
+    const PositionGrid grid = *PositionGrid::over(mrr, choice);
+    TriangleMesh base = mrr.base;
+    for (Vec3& position : base.positions) position = grid.snap(position);
+    Figures figures;
+    figures.base = choice.encoding == RecordEncoding::kFloat64 ? 24 * base.positions.size() + 12 * base.faces.size()
+                                                               : pack_base(base, mrr.ghosts, grid).size();
+    ProgressiveMesh sender = *ProgressiveMesh::from_base(base, mrr.ghosts);
+    ProgressiveMesh reader = sender;
+    RecordCodec codec(grid);
+    std::vector<RecordBlock> blocks;
+    const std::size_t records = mrr.record_of_level(level);
+    double begin = cpu_seconds();
+    while (sender.records() < records) {
+        blocks.push_back(*codec.encode(mrr.records, sender.records(), records, sender));
+        figures.records += blocks.back().payload.size();
+    }
+    figures.encode = cpu_seconds() - begin;
+    begin = cpu_seconds();
+    for (const RecordBlock& block : blocks) {
+        if (const Status done = codec.decode(block, reader); !done) std::printf("%s\n", done.error().message.c_str());
+    }
+    figures.decode = cpu_seconds() - begin;
+    if (reader.mesh() != sender.mesh()) std::printf("the meshes differ\n");
+    return figures;
+}
+
+std::size_t draco_bytes(const TriangleMesh& mesh) {
+    draco::TriangleSoupMeshBuilder builder;
+    builder.Start(static_cast<int>(mesh.face_count()));
+    const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        float corners[3][3];
+        for (int c = 0; c < 3; ++c) {
+            for (int axis = 0; axis < 3; ++axis) corners[c][axis] = static_cast<float>(mesh.positions[mesh.faces[f][c]][axis]);
+        }
+        builder.SetAttributeValuesForFace(position, draco::FaceIndex(f), corners[0], corners[1], corners[2]);
+    }
+    draco::Encoder encoder;
+    encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
+    draco::EncoderBuffer buffer;
+    return encoder.EncodeMeshToBuffer(*builder.Finalize(), &buffer).ok() ? buffer.size() : 0;
+}
+
+/// Its codecs of vertex and index buffers alone, positions as 16-bit numbers of which 14 bits are used; ordered for it first.
+std::size_t meshoptimizer_bytes(const TriangleMesh& mesh) {
+    BoundingBox box = bounding_box(mesh);
+    const double step = (box.max - box.min).maxCoeff() / 16383;
+    struct Vertex {
+        std::uint16_t xyz[4];
+    };
+    std::vector<Vertex> vertices(mesh.positions.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        for (int axis = 0; axis < 3; ++axis)
+            vertices[v].xyz[axis] = static_cast<std::uint16_t>((mesh.positions[v][axis] - box.min[axis]) / step + 0.5);
+    }
+    std::vector<unsigned> indices;
+    for (const Triangle& face : mesh.faces) indices.insert(indices.end(), face.begin(), face.end());
+    meshopt_optimizeVertexCache(indices.data(), indices.data(), indices.size(), vertices.size());
+    meshopt_optimizeVertexFetch(vertices.data(), indices.data(), indices.size(), vertices.data(), vertices.size(),
+                                sizeof(Vertex));
+    std::vector<unsigned char> buffer(std::max(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(Vertex)),
+                                               meshopt_encodeIndexBufferBound(indices.size(), vertices.size())));
+    return meshopt_encodeVertexBuffer(buffer.data(), buffer.size(), vertices.data(), vertices.size(), sizeof(Vertex)) +
+           meshopt_encodeIndexBuffer(buffer.data(), buffer.size(), indices.data(), indices.size());
+}
+
+void print_encodings(const std::string& name, const MultiresMesh& mrr) {
+    for (const auto& [text, choice] : {std::pair("FLOAT64", EncodingChoice{RecordEncoding::kFloat64, 0}),
+                                       {"FLOAT32", {RecordEncoding::kFloat32, 0}},
+                                       {"QUANTISED 16", {RecordEncoding::kQuantised, 16}},
+                                       {"QUANTISED 14", {RecordEncoding::kQuantised, 14}}}) {
+        const Figures f = measure(mrr, choice, mrr.levels());
+        const auto splits = static_cast<double>(mrr.levels());
+        std::printf("| %s | %s | %u | %zu | %.1f | %.2f | %.2f | %.2f |\n", name.c_str(), text, mrr.faces_max(), mrr.levels(),
+                    static_cast<double>(f.base) / mrr.base.vertex_count(), static_cast<double>(f.records) / splits,
+                    splits / f.encode / 1e6, splits / f.decode / 1e6);
+    }
+}
+
+void print_whole(const std::string& name, const MultiresMesh& mrr, std::uint32_t faces) {
+    const std::size_t level = mrr.level_for(faces);
+    const TriangleMesh mesh = mesh_at(mrr, level);
+    const Figures f = measure(mrr, {RecordEncoding::kQuantised, 14}, level);
+    const std::size_t whole = f.base + f.records, draco = draco_bytes(mesh);
+    std::printf("| %s | %u | %zu | %zu | %zu | %zu | %zu | %.2f |\n", name.c_str(), mesh.face_count(),
+                write_mesh(mesh, MeshFormat::kStlBinary).size(), write_mesh(mesh, MeshFormat::kPlyBinary).size(),
+                meshoptimizer_bytes(mesh), draco, whole, static_cast<double>(whole) / static_cast<double>(draco));
+}
+
+std::string hex(std::span<const std::byte> bytes) {
+    static constexpr char kDigits[] = "0123456789abcdef";
+    std::string text;
+    for (const std::byte byte : bytes) {
+        text += kDigits[static_cast<unsigned>(byte) >> 4U];
+        text += kDigits[static_cast<unsigned>(byte) & 15U];
+    }
+    return text;
+}
+
+std::string hex(double value) { return hex(std::as_bytes(std::span(&value, 1))); }
+
+/// The stream of a representation at 14 bits, as the golden files of tests/data/golden are written: for client/web/decoder.
+void print_stream(const MultiresMesh& mrr) {
+    const PositionGrid grid = *PositionGrid::over(mrr, {RecordEncoding::kQuantised, 14});
+    TriangleMesh base = mrr.base;
+    for (Vec3& position : base.positions) position = grid.snap(position);
+    const std::string packed = pack_base(base, mrr.ghosts, grid);
+    std::printf("base %u %u %u 3 14 %s %s %s %s\npacked %s\n", base.vertex_count(), base.face_count(), mrr.ghosts,
+                hex(grid.origin().x()).c_str(), hex(grid.origin().y()).c_str(), hex(grid.origin().z()).c_str(),
+                hex(grid.step()).c_str(), hex(std::as_bytes(std::span(packed))).c_str());
+    ProgressiveMesh mesh = *ProgressiveMesh::from_base(base, mrr.ghosts);
+    RecordCodec codec(grid);
+    while (mesh.records() < mrr.records.size()) {
+        const auto block = codec.encode(mrr.records, mesh.records(), mrr.records.size(), mesh);
+        std::printf("block %u %u 3 %u %s\n", block->first, block->count, block->crc32c,
+                    hex(std::as_bytes(std::span(block->payload))).c_str());
+    }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    const bool stream = count == 3 && std::string(arguments[1]) == "--stream";
+    std::vector<std::pair<std::string, MultiresMesh>> all;
+    for (int n = stream ? 2 : 1; n < count; ++n) {
+        const std::filesystem::path path = arguments[n];
+        Expected<StoredMrr> stored = load_mrr(path);
+        if (!stored) {
+            std::fprintf(stderr, "%s: %s\n", path.c_str(), stored.error().message.c_str());
+            return 1;
+        }
+        all.emplace_back(path.stem(), std::move(stored->mrr));
+    }
+    if (stream) {
+        print_stream(all.front().second);
+        return 0;
+    }
+    std::printf(
+        "| Representation | Encoding | Faces | Splits | Base, bytes a vertex | Bytes a split | Encode, M splits/s | "
+        "Decode and apply, M splits/s |\n|---|---|--:|--:|--:|--:|--:|--:|\n");
+    for (const auto& [name, mrr] : all) print_encodings(name, mrr);
+    std::printf(
+        "\n| Mesh | Faces | Binary STL | Binary PLY (doubles) | meshoptimizer, 14 bit | Draco, 14 bit | Records, 14 bit | "
+        "Records / Draco |\n|---|--:|--:|--:|--:|--:|--:|--:|\n");
+    for (const auto& [name, mrr] : all) print_whole(name, mrr, 30'000);
+    return 0;
+}

@@ -1,0 +1,89 @@
+"""The C++ decoder, by ctypes."""
+
+import ctypes
+import pathlib
+
+import numpy as np
+
+_U32 = ctypes.c_uint32
+_BYTES = ctypes.c_char_p
+
+
+class CorruptError(Exception):
+    """What came from the server is damaged, or does not fit what came before."""
+
+
+def _load():
+    library = ctypes.CDLL(str(pathlib.Path(__file__).with_name("libvsplit_decoder.so")))
+    pointer = ctypes.c_void_p
+    doubles = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
+    indices = np.ctypeslib.ndpointer(np.uint32, flags="C_CONTIGUOUS")
+    for name, result, arguments in (
+        ("new", pointer, []),
+        ("free", None, [pointer]),
+        ("error", _BYTES, [pointer]),
+        ("begin", ctypes.c_int, [pointer, doubles, _U32, indices, _U32, _U32]),
+        ("begin_packed", ctypes.c_int,
+         [pointer, _BYTES, ctypes.c_size_t, _U32, _U32, _U32, _U32, _U32, ctypes.c_double * 3, ctypes.c_double]),
+        ("append", ctypes.c_int, [pointer, _U32, _U32, _U32, _U32, _BYTES, ctypes.c_size_t]),
+        ("show", ctypes.c_int, [pointer, _U32]),
+        ("faces_held", _U32, [pointer]),
+        ("records_held", _U32, [pointer]),
+        ("vertices", _U32, [pointer]),
+        ("faces", _U32, [pointer]),
+        ("copy", None, [pointer, doubles, indices]),
+    ):
+        function = getattr(library, "vsplit_decoder_" + name)
+        function.restype, function.argtypes = result, arguments
+    return library
+
+
+_library = _load()
+
+
+class Decoder:
+    """Holds what a stream brought. Not thread-safe."""
+
+    def __init__(self):
+        self._decoder = _library.vsplit_decoder_new()
+        if not self._decoder:
+            raise MemoryError()
+
+    def __del__(self):
+        if getattr(self, "_decoder", None):
+            _library.vsplit_decoder_free(self._decoder)
+
+    def _check(self, failed):
+        if failed:
+            raise CorruptError(_library.vsplit_decoder_error(self._decoder).decode())
+
+    def begin(self, positions, indices, ghosts):
+        self._check(_library.vsplit_decoder_begin(self._decoder, positions, len(positions), indices, len(indices), ghosts))
+
+    def begin_packed(self, packed, part):
+        """`part`: any BaseMesh message of the stream."""
+        origin = (ctypes.c_double * 3)(part.origin.x, part.origin.y, part.origin.z)
+        self._check(_library.vsplit_decoder_begin_packed(
+            self._decoder, packed, len(packed), part.vertices, part.faces, part.ghosts, part.encoding,
+            part.quantisation_bits, origin, part.step))
+
+    def append(self, block):
+        self._check(_library.vsplit_decoder_append(
+            self._decoder, block.first, block.count, block.encoding, block.crc32c, block.payload, len(block.payload)))
+
+    def show(self, faces):
+        self._check(_library.vsplit_decoder_show(self._decoder, faces))
+
+    @property
+    def faces_held(self):
+        return _library.vsplit_decoder_faces_held(self._decoder)
+
+    @property
+    def records_held(self):
+        return _library.vsplit_decoder_records_held(self._decoder)
+
+    def shown(self):
+        points = np.empty((_library.vsplit_decoder_vertices(self._decoder), 3), np.float64)
+        faces = np.empty((_library.vsplit_decoder_faces(self._decoder), 3), np.uint32)
+        _library.vsplit_decoder_copy(self._decoder, points, faces)
+        return points, faces

@@ -1,0 +1,287 @@
+import { Column, ColumnReader, fromZigzag } from "./columns.js";
+import { crc32c } from "./crc32c.js";
+import { CorruptError } from "./errors.js";
+import { codesOf, Encoding, largestCoordinate, type Codes, type Grid } from "./grid.js";
+import { Kind, type ProgressiveMesh } from "./mesh.js";
+import { Star } from "./star.js";
+
+/** A `vsplit.v1.RecordBlock`. */
+export interface RecordBlock {
+  first: number;
+  count: number;
+  encoding: number;
+  payload: Uint8Array;
+  crc32c: number;
+}
+
+const mostBlockBytes = 256 * 1024;
+const mostBlockRecords = 65536;
+const mostUnpackedBytes = 64;
+const beside = 128;
+const mostCodedFan = 10;
+
+/** Decodes blocks onto a mesh, one after the other: the counterpart of core's RecordCodec. */
+export class RecordDecoder {
+  private readonly codes: Codes | undefined;
+  private readonly star = new Star();
+  private readonly besideList = new Uint32Array(beside);
+  private besideCount = 0;
+  private lastMoved = -1;
+  private columns!: ColumnReader;
+  private inRange = true;
+  private readonly point = new Float64Array(3);
+  private readonly centre = new Float64Array(3);
+  private readonly guess = new Float64Array(3);
+
+  constructor(readonly grid: Grid) {
+    this.codes = grid.encoding === Encoding.Float64 ? undefined : codesOf(grid);
+  }
+
+  /**
+   * `mesh` stands where the block begins and takes its records.
+   * Throws CorruptError that names the block by its first record; the mesh then is as it was.
+   */
+  decode(block: RecordBlock, mesh: ProgressiveMesh): void {
+    const before = mesh.records;
+    try {
+      this.check(block);
+      if (block.encoding === Encoding.Float64) decodePlain(block, mesh);
+      else this.decodeCompact(block, mesh);
+    } catch (error) {
+      mesh.rewind(before);
+      if (!(error instanceof CorruptError)) throw error;
+      throw new CorruptError(`record block from record ${block.first} on: ${error.message}`);
+    }
+  }
+
+  private check(block: RecordBlock): void {
+    if (block.encoding !== this.grid.encoding) throw new CorruptError(`its encoding is ${block.encoding}, that of the base mesh was ${this.grid.encoding}`);
+    if (block.payload.length > mostBlockBytes) throw new CorruptError(`${block.payload.length} bytes are more than ${mostBlockBytes}`);
+    if (block.first + block.count > 0xffffffff) throw new CorruptError("record numbers go beyond 32 bits");
+    if (crc32c(block.payload) !== block.crc32c >>> 0) throw new CorruptError("the CRC-32C does not fit the payload");
+  }
+
+  private decodeCompact(block: RecordBlock, mesh: ProgressiveMesh): void {
+    if (block.count > mostBlockRecords) throw new CorruptError(`${block.count} records are more than ${mostBlockRecords}`);
+    if (block.payload[0] !== this.grid.bits) throw new CorruptError(`it is not of ${this.grid.bits} bits a coordinate`);
+    const columns = (this.columns = new ColumnReader(block.payload.subarray(1), block.count * mostUnpackedBytes));
+    const kinds = columns.whole(Column.Kinds);
+    if (kinds.length !== block.count) throw new CorruptError(`${kinds.length} kinds of records for a count of ${block.count}`);
+    columns.skip(Column.Kinds);
+    let splits = 0;
+    for (const kind of kinds) splits += kind === Kind.Split ? 1 : 0;
+    mesh.reserve(splits, kinds.length - splits);
+    this.besideCount = 0;
+    this.lastMoved = -1;
+    this.inRange = true;
+    for (let n = 0; n < kinds.length; ++n) {
+      const kind = kinds[n]!;
+      if (kind === Kind.Split) this.split(mesh);
+      else if (kind === Kind.Flip) this.flip(mesh);
+      else if (kind === Kind.Move) this.move(mesh);
+      else throw new CorruptError(`record ${block.first + n} is of kind ${kind}`);
+      if (columns.short) throw new CorruptError(`record ${block.first + n}: its columns are too short`);
+    }
+    if (!columns.allRead()) throw new CorruptError("something is left over behind the last record");
+  }
+
+  private place(mesh: ProgressiveMesh): number {
+    const symbol = this.columns.byte(Column.Place);
+    if (symbol >= beside) {
+      if (symbol - beside >= this.besideCount) throw new CorruptError("a vertex that is not there");
+      return this.besideList[symbol - beside]!;
+    }
+    const count = mesh.vertexCount;
+    const width = 32 - Math.clz32(count - 1);
+    const low = width > 7 ? width - 7 : 0;
+    const vertex = ((symbol << low) | this.columns.bits(low, Column.PlaceBits)) >>> 0;
+    if (vertex >= count) throw new CorruptError("a vertex that is not there");
+    return vertex;
+  }
+
+  private split(mesh: ProgressiveMesh): void {
+    const { star, columns } = this;
+    const vertex = this.place(mesh);
+    star.gather(mesh, vertex);
+    const valence = star.valence;
+    let turn: number;
+    let more: number;
+    if (valence >= 3 && valence <= mostCodedFan) {
+      const symbol = columns.byte(Column.Fan + valence);
+      more = symbol % (valence - 1);
+      turn = (symbol - more) / (valence - 1);
+    } else {
+      turn = columns.number(Column.LargeFan);
+      more = columns.number(Column.LargeFan);
+    }
+    if (turn >= valence || more + 1 >= valence) throw new CorruptError("a fan that is none of the vertex");
+    star.turn(turn);
+    const steps = more + 1;
+    const anchor = star.corner[star.at(0)]!;
+
+    star.lie();
+    const { x, y, z, hasPlane } = star;
+    let fx = 0, fy = 0, fz = 0, rx = 0, ry = 0, rz = 0;
+    let at = star.at(0);
+    for (let n = 0; ; ++n) {
+      fx += x[at]!;
+      fy += y[at]!;
+      fz += z[at]!;
+      if (n === steps) break;
+      at = at + 1 === valence ? 0 : at + 1;
+    }
+    const begin = star.at(0);
+    const ex = (x[begin]! + x[at]!) * 0.5, ey = (y[begin]! + y[at]!) * 0.5, ez = (z[begin]! + z[at]!) * 0.5;
+    for (let n = steps; ; ++n) {
+      rx += x[at]!;
+      ry += y[at]!;
+      rz += z[at]!;
+      if (n === valence) break;
+      at = at + 1 === valence ? 0 : at + 1;
+    }
+    const inFan = steps + 1, inRest = valence - steps + 1;
+    fx /= inFan;
+    fy /= inFan;
+    fz /= inFan;
+    rx /= inRest;
+    ry /= inRest;
+    rz /= inRest;
+    const fanHeight = hasPlane ? star.height(fx, fy, fz) : 0;
+    const restHeight = hasPlane ? star.height(rx, ry, rz) : 0;
+    const endsHeight = hasPlane ? star.height(ex, ey, ez) : 0;
+    const { guess, point } = this;
+    guess[0] = 0.5 * fx - 0.2 * rx + 0.15 * ex;
+    guess[1] = 0.5 * fy - 0.2 * ry + 0.15 * ey;
+    guess[2] = 0.5 * fz - 0.2 * rz + 0.15 * ez;
+    this.codePoint(0.35 * fanHeight - 0.15 * restHeight + 0.1 * endsHeight, Column.Along, Column.Across);
+    const ax = point[0]!, ay = point[1]!, az = point[2]!;
+    const dx = ax - star.cx, dy = ay - star.cy, dz = az - star.cz;
+    guess[0] = 0.55 * rx - 0.4 * fx + 0.1 * ex + 0.4 * dx;
+    guess[1] = 0.55 * ry - 0.4 * fy + 0.1 * ey + 0.4 * dy;
+    guess[2] = 0.55 * rz - 0.4 * fz + 0.1 * ez + 0.4 * dz;
+    const addedHeight = hasPlane ? star.height(dx, dy, dz) : 0;
+    this.codePoint(0.5 * restHeight - 0.35 * fanHeight + 0.05 * endsHeight + 0.4 * addedHeight, Column.Along, Column.Across);
+    if (!this.inRange) throw new CorruptError("a position that is not on the grid");
+    const added = mesh.vertexCount;
+    mesh.split(anchor, steps, point[0]!, point[1]!, point[2]!, ax, ay, az);
+    this.noteBeside(vertex, added);
+    this.lastMoved = -1;
+  }
+
+  private noteBeside(vertex: number, added: number): void {
+    const { besideList, star } = this;
+    besideList[0] = vertex;
+    besideList[1] = added;
+    const most = Math.min(star.valence, beside - 2);
+    for (let n = 0, at = star.at(0); n < most; ++n) {
+      besideList[n + 2] = star.vertex[at]!;
+      at = at + 1 === star.valence ? 0 : at + 1;
+    }
+    this.besideCount = most + 2;
+  }
+
+  private flip(mesh: ProgressiveMesh): void {
+    const half = this.columns.uniform(Column.Flip, 3 * mesh.faceCount);
+    mesh.flip(half);
+    this.besideCount = 0;
+    for (const side of [half, mesh.twins[half]!]) {
+      this.besideList[this.besideCount++] = mesh.corners[side]!;
+      this.besideList[this.besideCount++] = mesh.corners[side % 3 === 0 ? side + 2 : side - 1]!;
+    }
+    this.lastMoved = -1;
+  }
+
+  private move(mesh: ProgressiveMesh): void {
+    const step = this.columns.number(Column.Moved);
+    const vertex = (this.lastMoved + 1 + fromZigzag(step)) >>> 0;
+    if (vertex >= mesh.vertexCount) throw new CorruptError("a vertex that is not there");
+    this.lastMoved = vertex;
+    this.star.gather(mesh, vertex);
+    this.star.lie();
+    this.guess.fill(0);
+    this.codePoint(0, Column.MoveAlong, Column.MoveAcross);
+    if (!this.inRange) throw new CorruptError("a position that is not on the grid");
+    mesh.move(vertex, this.point[0]!, this.point[1]!, this.point[2]!);
+  }
+
+  private codePoint(height: number, along: number, across: number): void {
+    const { star, centre, guess, point } = this;
+    const codes = this.codes!;
+    centre[0] = star.cx;
+    centre[1] = star.cy;
+    centre[2] = star.cz;
+    const w = star.across;
+    const u = w === 2 ? 0 : w + 1;
+    const v = u === 2 ? 0 : u + 1;
+    this.put(along + codes.scale(star.reach[u]!, centre[u]!), centre[u]! + guess[u]!, u);
+    this.put(along + codes.scale(star.reach[v]!, centre[v]!), centre[v]! + guess[v]!, v);
+    if (!star.hasPlane) {
+      this.put(along + codes.scale(star.reach[w]!, centre[w]!), centre[w]! + guess[w]!, w);
+      return;
+    }
+    const { normal } = star;
+    const slope = (normal[u]! * (point[u]! - centre[u]!) + normal[v]! * (point[v]! - centre[v]!)) / normal[w]!;
+    this.put(across + codes.scale(star.thickness, centre[w]!), centre[w]! - slope + height, w);
+  }
+
+  private put(column: number, expected: number, axis: number): void {
+    if (!this.inRange) return;
+    const codes = this.codes!;
+    const code = (codes.code(expected, axis) + fromZigzag(this.columns.number(column))) >>> 0;
+    if (codes.holds(code)) this.point[axis] = codes.value(code, axis);
+    else this.inRange = false;
+  }
+}
+
+/** Encoding 1. */
+function decodePlain(block: RecordBlock, mesh: ProgressiveMesh): void {
+  const { payload, count } = block;
+  const padded = Math.ceil(count / 8) * 8;
+  if (padded > payload.length) throw new CorruptError(`${count} records take at least ${padded} bytes, and there are ${payload.length}`);
+  const counts = [0, 0, 0];
+  for (let n = 0; n < count; ++n) {
+    if (payload[n]! > Kind.Move) throw new CorruptError(`record ${block.first + n} is of kind ${payload[n]}`);
+    ++counts[payload[n]!]!;
+  }
+  for (let n = count; n < padded; ++n) {
+    if (payload[n] !== 0) throw new CorruptError("the bytes that fill up the kinds are not 0");
+  }
+  const [splits, flips, moves] = counts as [number, number, number];
+  if (padded + 56 * splits + 4 * flips + 28 * moves !== payload.length) throw new CorruptError(`it is ${payload.length} bytes long`);
+  const view = new DataView(payload.buffer, payload.byteOffset, payload.length);
+  let anchor = padded, steps = anchor + 4 * splits, kept = steps + 4 * splits, added = kept + 24 * splits;
+  let position = added + 24 * splits, half = position + 24 * moves, vertex = half + 4 * flips;
+  const f64 = (at: number): number => {
+    const value = view.getFloat64(at, true);
+    if (!(Math.abs(value) <= largestCoordinate)) throw new CorruptError("a coordinate is not finite or beyond 1e15");
+    return value;
+  };
+  mesh.reserve(splits, flips + moves);
+  for (let n = 0; n < count; ++n) {
+    if (payload[n] === Kind.Split) {
+      checkFan(mesh, view.getUint32(anchor, true), view.getUint32(steps, true));
+      mesh.split(view.getUint32(anchor, true), view.getUint32(steps, true), f64(kept), f64(kept + 8), f64(kept + 16), f64(added), f64(added + 8), f64(added + 16));
+      anchor += 4;
+      steps += 4;
+      kept += 24;
+      added += 24;
+    } else if (payload[n] === Kind.Flip) {
+      mesh.flip(view.getUint32(half, true));
+      half += 4;
+    } else {
+      mesh.move(view.getUint32(vertex, true), f64(position), f64(position + 8), f64(position + 16));
+      vertex += 4;
+      position += 24;
+    }
+  }
+}
+
+function checkFan(mesh: ProgressiveMesh, anchor: number, steps: number): void {
+  if (anchor >= 3 * mesh.faceCount) throw new CorruptError(`anchor ${anchor} is no corner`);
+  if (steps === 0) throw new CorruptError("0 steps");
+  let corner = anchor;
+  for (let n = 0; n < steps; ++n) {
+    corner = mesh.twins[corner % 3 === 0 ? corner + 2 : corner - 1]!;
+    if (corner === anchor) throw new CorruptError(`${steps} steps around a vertex of valence ${n + 1}`);
+  }
+}

@@ -1,0 +1,106 @@
+import { CorruptError } from "./errors.js";
+
+export const enum Encoding {
+  Float64 = 1,
+  Float32 = 2,
+  Quantised = 3,
+}
+
+/** The positions that a stream can hold, as its base mesh says. */
+export interface Grid {
+  encoding: Encoding;
+  /** Quantised only; 0 otherwise. */
+  bits: number;
+  origin: readonly [number, number, number];
+  step: number;
+}
+
+export const float64Grid: Grid = { encoding: Encoding.Float64, bits: 0, origin: [0, 0, 0], step: 0 };
+export const float32Grid: Grid = { encoding: Encoding.Float32, bits: 0, origin: [0, 0, 0], step: 0 };
+
+/** Beyond this no coordinate is accepted. */
+export const largestCoordinate = 1e15;
+
+const f64 = new Float64Array(1);
+const f64Words = new Uint32Array(f64.buffer);
+const f32 = new Float32Array(1);
+const f32Word = new Uint32Array(f32.buffer);
+f64[0] = 1;
+const highWord = f64Words[1] === 0x3ff00000 ? 1 : 0;
+
+function exponentField(value: number): number {
+  f64[0] = value;
+  return (f64Words[highWord]! >>> 20) & 0x7ff;
+}
+
+function clampScale(scale: number): number {
+  return scale < 0 ? 0 : scale > 31 ? 31 : scale;
+}
+
+/** Coordinates as whole numbers in their order. */
+export interface Codes {
+  code(value: number, axis: number): number;
+  value(code: number, axis: number): number;
+  holds(code: number): boolean;
+  scale(length: number, at: number): number;
+}
+
+class Float32Codes implements Codes {
+  code(value: number, _axis: number): number {
+    f32[0] = value;
+    const bits = f32Word[0]!;
+    return (bits ^ (-(bits >>> 31) | 0x80000000)) >>> 0;
+  }
+  value(code: number, _axis: number): number {
+    f32Word[0] = code ^ (((code >>> 31) - 1) | 0x80000000);
+    return f32[0]!;
+  }
+  holds(code: number): boolean {
+    return Math.abs(this.value(code, 0)) <= largestCoordinate;
+  }
+  scale(length: number, at: number): number {
+    if (length === 0) return 0;
+    return clampScale(exponentField(length) - exponentField(at) + 24);
+  }
+}
+
+class QuantisedCodes implements Codes {
+  private readonly x: number;
+  private readonly y: number;
+  private readonly z: number;
+  private readonly step: number;
+  private readonly perUnit: number;
+  private readonly most: number;
+
+  constructor(grid: Grid) {
+    [this.x, this.y, this.z] = grid.origin;
+    this.step = grid.step;
+    this.perUnit = 1 / grid.step;
+    this.most = 2 ** grid.bits - 1;
+  }
+  code(value: number, axis: number): number {
+    const origin = axis === 0 ? this.x : axis === 1 ? this.y : this.z;
+    const nearest = Math.floor((value - origin) * this.perUnit + 0.5);
+    return nearest > 0 ? (nearest < this.most ? nearest : this.most) : 0;
+  }
+  value(code: number, axis: number): number {
+    return (axis === 0 ? this.x : axis === 1 ? this.y : this.z) + code * this.step;
+  }
+  holds(code: number): boolean {
+    return code <= this.most;
+  }
+  scale(length: number, _at: number): number {
+    return clampScale(exponentField(length * this.perUnit) - 1022);
+  }
+}
+
+export function codesOf(grid: Grid): Codes {
+  if (grid.encoding === Encoding.Float32) return new Float32Codes();
+  if (grid.encoding !== Encoding.Quantised) throw new CorruptError(`encoding ${grid.encoding} is unknown; 1, 2 and 3 are known`);
+  const end = grid.step * (2 ** grid.bits - 1);
+  const reach = Math.max(...grid.origin.map((o) => Math.max(Math.abs(o), Math.abs(o + end))));
+  if (!(grid.bits >= 10 && grid.bits <= 24 && grid.step > 0 && reach <= largestCoordinate)) {
+    throw new CorruptError(`a grid of ${grid.bits} bits in steps of ${grid.step}; accepted are 10 to 24 bits and positive steps`);
+  }
+  return new QuantisedCodes(grid);
+}

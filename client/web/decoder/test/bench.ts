@@ -1,0 +1,21 @@
+// node dist/test/bench.js STREAM...: decodes and applies streams as `bench_records --stream` writes them, five times each.
+import { readFileSync } from "node:fs";
+import { ProgressiveMesh, RecordDecoder } from "../src/index.js";
+import { readGolden } from "./golden.js";
+
+for (const path of process.argv.slice(2)) {
+  const { base, grid, blocks } = readGolden(readFileSync(path, "utf8"));
+  let best = Infinity;
+  let splits = 0;
+  let faces = 0;
+  for (let round = 0; round < 5; ++round) {
+    const mesh = new ProgressiveMesh(base.positions.slice(), base.corners.slice(), base.ghosts);
+    const decoder = new RecordDecoder(grid);
+    const begin = process.cpuUsage();
+    for (const { block } of blocks) decoder.decode(block, mesh);
+    best = Math.min(best, process.cpuUsage(begin).user / 1e6);
+    splits = mesh.level;
+    faces = mesh.faceCount;
+  }
+  console.log(`${path}: ${faces} faces, ${splits} splits, ${(splits / best / 1e6).toFixed(2)} M splits/s decoded and applied`);
+}

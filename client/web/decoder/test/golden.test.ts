@@ -1,0 +1,69 @@
+import assert from "node:assert/strict";
+import { readdirSync, readFileSync } from "node:fs";
+import { test } from "node:test";
+import { CorruptError, crc32c, ProgressiveMesh, RecordDecoder, type Grid, type RecordBlock } from "../src/index.js";
+import { readGolden, type Golden } from "./golden.js";
+
+// dist/test/ stands under client/web/decoder/.
+const directory = new URL("../../../../../tests/data/golden/", import.meta.url);
+
+interface Opened {
+  base: ProgressiveMesh;
+  grid: Grid;
+  blocks: Golden["blocks"];
+}
+
+function read(name: string): Opened {
+  const { base, grid, blocks } = readGolden(readFileSync(new URL(name, directory), "utf8"));
+  return { base: new ProgressiveMesh(base.positions, base.corners, base.ghosts), grid, blocks };
+}
+
+const bytesIn = (array: Float64Array | Uint32Array): Uint8Array => new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+
+function state(mesh: ProgressiveMesh): string {
+  const positions = mesh.positions.slice(0, 3 * mesh.vertexCount);
+  const corners = mesh.corners.slice(0, 3 * mesh.faceCount);
+  return `${mesh.vertexCount} ${mesh.faceCount} ${crc32c(bytesIn(positions))} ${crc32c(bytesIn(corners))}`;
+}
+
+const names = readdirSync(directory).filter((name) => name.endsWith(".golden"));
+
+test("there are golden files of every encoding", () => assert.ok(names.length >= 6));
+
+for (const name of names) {
+  test(`${name} decodes to the meshes that C++ made, and back`, () => {
+    const { base, grid, blocks } = read(name);
+    const before = state(base);
+    const decoder = new RecordDecoder(grid);
+    for (const { block, after } of blocks) {
+      decoder.decode(block, base);
+      assert.equal(state(base), after);
+    }
+    base.rewind(0);
+    assert.equal(state(base), before);
+    for (const { block } of blocks) decoder.decode(block, base);
+    assert.equal(state(base), blocks.at(-1)!.after);
+  });
+
+  test(`${name}: damage is refused by the block's first record and changes nothing`, () => {
+    const { base, grid, blocks } = read(name);
+    const decoder = new RecordDecoder(grid);
+    decoder.decode(blocks[0]!.block, base);
+    const before = state(base);
+    const good = blocks[1]!.block;
+    const refused = (block: RecordBlock): void => {
+      assert.throws(() => decoder.decode(block, base), (error: Error) => error instanceof CorruptError && error.message.includes(`from record ${good.first} on`));
+      assert.equal(state(base), before);
+    };
+    const turned = good.payload.slice();
+    turned[turned.length >> 1]! ^= 1;
+    refused({ ...good, payload: turned });
+    const cut = good.payload.slice(0, -1);
+    refused({ ...good, payload: cut });
+    refused({ ...good, payload: cut, crc32c: crc32c(cut) });
+    refused({ ...good, encoding: 17 });
+    refused({ ...good, count: good.count + 1 });
+    decoder.decode(good, base);
+    assert.equal(state(base), blocks[1]!.after);
+  });
+}

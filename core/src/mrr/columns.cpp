@@ -1,0 +1,143 @@
+#include "mrr/columns.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace vsplit {
+namespace {
+
+// There is little to find in columns but how often each symbol comes; higher levels find repetitions by chance and gain nothing.
+constexpr int kZstdLevel = 1;
+
+void append_varint(std::string& to, std::size_t value) {
+    for (; value >= 0x80; value >>= 7U) to.push_back(static_cast<char>(0x80U | (value & 0x7FU)));
+    to.push_back(static_cast<char>(value));
+}
+
+Error corrupt(const std::string& what) { return {Cause::kCorrupt, what, ""}; }
+
+/// Sizes of a payload, front to back.
+class PayloadReader {
+public:
+    explicit PayloadReader(std::span<const std::byte> payload) : left_(payload) {}
+
+    [[nodiscard]] bool at_end() const { return left_.empty(); }
+    [[nodiscard]] std::size_t left() const { return left_.size(); }
+    /// False at the end of the payload or beyond 32 bits.
+    [[nodiscard]] bool varint(std::size_t& value) {
+        value = 0;
+        for (unsigned shift = 0; shift < 35 && !left_.empty(); shift += 7) {
+            const auto byte = static_cast<std::uint8_t>(left_.front());
+            left_ = left_.subspan(1);
+            value |= std::size_t{byte & 0x7FU} << shift;
+            if (byte < 0x80) return value >> 32U == 0;
+        }
+        return false;
+    }
+    [[nodiscard]] std::span<const std::byte> take(std::size_t size) {
+        const auto taken = left_.first(size);
+        left_ = left_.subspan(size);
+        return taken;
+    }
+
+private:
+    std::span<const std::byte> left_;
+};
+
+}  // namespace
+
+void ColumnWriter::bits(unsigned column, std::uint32_t value, unsigned width) {
+    Bits& to = bits_[column - column::kBits];
+    to.pending |= std::uint64_t{value} << to.width;
+    to.width += width;
+    for (; to.width >= 8; to.width -= 8, to.pending >>= 8U) to.packed.push_back(static_cast<char>(to.pending & 0xFFU));
+}
+
+void ColumnWriter::number(unsigned column, std::uint32_t value) {
+    const Token token = Token::of(value);
+    byte(column, token.symbol);
+    bits(column::kBits, token.rest, token.bits);
+}
+
+void ColumnWriter::clear() {
+    for (std::string& column : columns_) column.clear();
+    bits_ = {};
+}
+
+void ColumnWriter::pack(std::string& payload) {
+    std::string compressed;
+    const auto put = [&payload](unsigned number, bool is_compressed, const std::string& bytes) {
+        payload.push_back(static_cast<char>(number));
+        append_varint(payload, bytes.size() * 2 + (is_compressed ? 1 : 0));
+        payload += bytes;
+    };
+    for (unsigned c = 0; c < column::kCount; ++c) {
+        if (columns_[c].empty()) continue;
+        compressed.resize(ZSTD_compressBound(columns_[c].size()));
+        const std::size_t size = ZSTD_compressCCtx(zstd_.get(), compressed.data(), compressed.size(), columns_[c].data(),
+                                                   columns_[c].size(), kZstdLevel);
+        const bool shorter = ZSTD_isError(size) == 0U && size < columns_[c].size();
+        if (shorter) compressed.resize(size);
+        put(c, shorter, shorter ? compressed : columns_[c]);
+    }
+    for (unsigned c = column::kBits; c < column::kAll; ++c) {
+        const Bits& of = bits_[c - column::kBits];
+        if (of.width > 0) bits(c, 0, 8 - of.width);
+        if (!of.packed.empty()) put(c, false, of.packed);
+    }
+}
+
+Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most) {
+    struct Stored {
+        unsigned column = 0;
+        bool compressed = false;
+        std::span<const std::byte> bytes;
+        std::size_t size = 0;
+    };
+    std::vector<Stored> stored;
+    std::size_t total = 0;
+    for (PayloadReader reader(payload); !reader.at_end();) {
+        Stored next;
+        next.column = static_cast<std::uint8_t>(reader.take(1).front());
+        std::size_t size = 0;
+        if (!reader.varint(size) || size / 2 > reader.left()) return corrupt("a column does not end where its block does");
+        if (next.column >= column::kAll || (!stored.empty() && next.column <= stored.back().column))
+            return corrupt("column " + std::to_string(next.column) + " where a higher one up to 145 is due");
+        next.compressed = size % 2 != 0;
+        next.bytes = reader.take(size / 2);
+        const unsigned long long content =
+            next.compressed ? ZSTD_getFrameContentSize(next.bytes.data(), next.bytes.size()) : next.bytes.size();
+        if (content == 0 || content > most - total) {  // also what zstd says where it finds no size
+            return corrupt("column " + std::to_string(next.column) +
+                           " would unpack to nothing, to an unknown size or to more than " + std::to_string(most - total) +
+                           " bytes");
+        }
+        next.size = static_cast<std::size_t>(content);
+        total += next.size;
+        stored.push_back(next);
+    }
+    columns_ = {};
+    pending_ = {};
+    short_ = false;
+    unpacked_.resize(total);
+    std::uint8_t* to = unpacked_.data();
+    for (const Stored& column : stored) {
+        if (column.compressed) {
+            if (ZSTD_decompressDCtx(zstd_.get(), to, column.size, column.bytes.data(), column.bytes.size()) != column.size)
+                return corrupt("column " + std::to_string(column.column) + " is no whole zstd frame");
+        } else {
+            std::transform(column.bytes.begin(), column.bytes.end(), to,
+                           [](std::byte byte) { return static_cast<std::uint8_t>(byte); });
+        }
+        columns_[column.column] = {to, to + column.size};
+        to += column.size;
+    }
+    return Done{};
+}
+
+bool ColumnReader::all_read() const {
+    return std::all_of(pending_.begin(), pending_.end(), [](const Pending& at) { return at.bits == 0 && at.width < 8; }) &&
+           std::all_of(columns_.begin(), columns_.end(), [](const Cursor& at) { return at.next == at.end; });
+}
+
+}  // namespace vsplit

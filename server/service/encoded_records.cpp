@@ -1,0 +1,64 @@
+#include "service/encoded_records.h"
+
+#include <algorithm>
+
+namespace vsplit::service {
+namespace {
+
+/// Blocks usually begin at multiples of it; no reader gets one across, so that the next finds them.
+constexpr std::size_t kUsual = 32768;
+
+/// Records that are rounded and applied at once.
+constexpr std::size_t kStride = 4096;
+
+std::size_t next_multiple(std::size_t record) { return (record / kUsual + 1) * kUsual; }
+
+}  // namespace
+
+EncodedRecords::EncodedRecords(const MultiresMesh& mrr, const EncodingChoice& choice)
+    : mrr_(mrr), grid_(*PositionGrid::over(mrr, choice)), codec_(grid_) {}
+
+EncodedRecords::Block EncodedRecords::find(std::size_t first, std::size_t last) const {
+    const std::lock_guard lock(mutex_);
+    return find_locked(first, last);
+}
+
+EncodedRecords::Block EncodedRecords::find_locked(std::size_t first, std::size_t last) const {
+    const auto found = blocks_.find(first);
+    return found != blocks_.end() && first + found->second->count <= last ? found->second : nullptr;
+}
+
+Expected<EncodedRecords::Block> EncodedRecords::find_or_make(std::size_t first, std::size_t last) {
+    const std::lock_guard making(making_);
+    if (Block found = find(first, last)) return found;
+    if (Status moved = move_to(first); !moved) return moved.error();
+    const std::size_t usual_end = std::min(next_multiple(first), mrr_.records.size());
+    Expected<RecordBlock> made = codec_.encode(mrr_.records, first, std::min(last, usual_end), *mesh_);
+    if (!made) return made.error();
+    Block block = std::make_shared<const RecordBlock>(*std::move(made));
+    const std::lock_guard lock(mutex_);
+    if (last >= usual_end && (first % kUsual == 0 || begins_.contains(first))) {
+        blocks_.emplace(first, block);
+        begins_.insert(first + block->count);
+    }
+    return block;
+}
+
+Status EncodedRecords::move_to(std::size_t record) {
+    if (!mesh_) {
+        TriangleMesh base = mrr_.base;
+        for (Vec3& position : base.positions) position = grid_.snap(position);
+        Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(std::move(base), mrr_.ghosts);
+        if (!mesh) return mesh.error();
+        mesh_ = *std::move(mesh);
+    }
+    mesh_->rewind(record);
+    while (mesh_->records() < record) {
+        const std::size_t count = std::min(kStride, record - mesh_->records());
+        const RecordList rounded = on_grid(mrr_.records.slice(mesh_->records(), count), grid_);
+        if (Status refined = mesh_->refine(rounded); !refined) return refined;
+    }
+    return Done{};
+}
+
+}  // namespace vsplit::service

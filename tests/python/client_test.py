@@ -1,0 +1,87 @@
+"""The Python client against a server of its own: client_test.py VSPLITD."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import grpc
+import numpy as np
+
+import vsplit
+from vsplit.v1 import meshing_pb2 as v1
+
+DATA = pathlib.Path(__file__).parent.parent / "data"
+
+
+def read_ply(data):
+    """As vsplit writes it: little-endian, doubles."""
+    head, body = data.split(b"end_header\n", 1)
+    counts = {line.split()[1]: int(line.split()[2]) for line in head.decode().splitlines() if line.startswith("element")}
+    size = counts["vertex"] * 24
+    points = np.frombuffer(body[:size], "<f8").reshape(-1, 3)
+    faces = np.frombuffer(body[size:], np.dtype([("n", "u1"), ("v", "<u4", 3)]))["v"]
+    return points, faces
+
+
+class ClientTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = subprocess.Popen([sys.argv[1], "--listen", "127.0.0.1:0"], stdout=subprocess.PIPE, text=True)
+        line = cls.server.stdout.readline()
+        cls.client = vsplit.Client("127.0.0.1:" + line.rsplit(":", 1)[1].split()[0].strip().rstrip("."))
+        cls.session = cls.client.upload(DATA / "bracket.stl")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.client.close()
+        cls.server.terminate()
+        cls.server.wait(20)
+
+    def test_any_resolution_is_what_download_gives(self):
+        for encoding, bits in (("float64", 0), ("float32", 0), ("quantised", 12)):
+            mesh = self.client.improve(self.session, encoding=encoding, bits=bits, faces=3000)
+            made = mesh.representation
+            self.assertGreater(made.faces_max, made.faces)
+            for faces in (made.faces, made.faces_min, made.faces_max, (made.faces + made.faces_min) // 2):
+                points, triangles = mesh.at(faces)
+                exact, expected = read_ply(self.client.download(self.session, made.id, faces, "PLY"))
+                np.testing.assert_array_equal(triangles, expected)
+                if encoding == "float64":
+                    np.testing.assert_array_equal(points, exact)
+                elif encoding == "float32":
+                    np.testing.assert_array_equal(points, exact.astype(np.float32).astype(np.float64))
+                else:
+                    self.assertGreater(mesh.max_error, 0)
+                    self.assertLessEqual(np.abs(points - exact).max(), mesh.max_error)
+            again = self.client.open(self.session, made.id, made.faces_min, encoding=encoding, bits=bits)
+            np.testing.assert_array_equal(again.at(made.faces)[0], mesh.at(made.faces)[0])
+
+    def test_other_libraries_take_what_it_gives(self):
+        mesh = self.client.improve(self.session, faces=3000)
+        points, cells = mesh.meshio_at(1000)
+        self.assertEqual(cells[0][0], "triangle")
+        self.assertLess(cells[0][1].max(), len(points))
+        _, flat = mesh.pyvista_at(1000)
+        self.assertEqual(len(flat), 4 * len(cells[0][1]))
+        self.assertTrue((flat[::4] == 3).all())
+
+    def test_damage_is_refused(self):
+        decoder = vsplit.mesh.Decoder()
+        with self.assertRaisesRegex(vsplit.CorruptError, "no base mesh"):
+            decoder.append(v1.RecordBlock(first=0, count=1, encoding=v1.FLOAT64, payload=b"x"))
+        with self.assertRaises(vsplit.CorruptError):
+            decoder.begin_packed(b"xx", v1.BaseMesh(vertices=4, faces=4, encoding=v1.FLOAT32))
+
+    def test_the_server_says_what_is_wrong(self):
+        with self.assertRaises(grpc.RpcError) as raised:
+            self.client.improve("none")
+        self.assertEqual(raised.exception.code(), grpc.StatusCode.NOT_FOUND)
+        with self.assertRaises(grpc.RpcError) as raised:
+            self.client.improve(self.session, encoding="quantised", bits=3)
+        self.assertIn("10 to 24", raised.exception.details())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
