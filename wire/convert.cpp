@@ -1,5 +1,6 @@
 #include "wire/convert.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -108,6 +109,8 @@ v1::Finding to_proto(const Finding& finding) {
     proto.set_count(finding.count);
     proto.set_message(sentence(finding.message));
     add_elements(finding.elements, *proto.mutable_elements());
+    for (std::size_t i = 0; i < std::min(finding.places.size(), Finding::kExamples); ++i)
+        *proto.add_places() = to_proto(finding.places[i]);
     return proto;
 }
 
@@ -324,17 +327,18 @@ Expected<std::optional<MeshFormat>> from_proto(v1::MeshFormat format) {
     }
 }
 
-Status check_repair(v1::Repair repair) {
+Expected<std::optional<RepairMode>> from_proto(v1::Repair repair) {
     switch (repair) {
         case v1::REPAIR_UNSPECIFIED:
+            return std::optional<RepairMode>();
         case v1::NONE:
-            return Done{};
+            return std::optional(RepairMode::kNone);
         case v1::SAFE:
+            return std::optional(RepairMode::kSafe);
         case v1::FULL:
-            return Error{Cause::kUnsupported,
-                         "repair " + v1::Repair_Name(repair) + " is not offered by this version; accepted is NONE", "repair"};
+            return std::optional(RepairMode::kFull);
         default:
-            return unknown_number("repair", repair, "NONE");
+            return unknown_number("repair", repair, "NONE, SAFE or FULL");
     }
 }
 

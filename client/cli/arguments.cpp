@@ -65,7 +65,8 @@ void add_input(CLI::App& verb, Arguments& a, const char* what) {
     add_choice<v1::Repair>(
         verb, "--repair", {{"none", v1::NONE}, {"safe", v1::SAFE}, {"full", v1::FULL}},
         [&a](v1::Repair repair) { a.repair = repair; },
-        "How to mend a broken mesh: none|safe|full. Default none; this version offers no other")
+        "Mend a broken mesh: none says what stands in the way; safe cuts apart and turns faces; full stitches cracks and fills "
+        "small holes too. Default: nothing is mended")
         ->type_name("R");
 }
 

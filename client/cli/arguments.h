@@ -23,7 +23,7 @@ struct Arguments {
     bool no_progress = false;
     unsigned threads = 0;  ///< 0: all cores
     double weld = 0;
-    v1::Repair repair = v1::NONE;
+    v1::Repair repair = v1::REPAIR_UNSPECIFIED;
     std::optional<std::uint32_t> faces;         ///< info, quality, resolution: the resolution to show
     std::optional<std::uint32_t> source_faces;  ///< improve, control: resolution of the representation to work on
     std::string size_field;                     ///< improve, control: file of sizes, read by read_size_field_into

@@ -32,10 +32,12 @@ void finish(grpc::ServerUnaryReactor* reactor, const RpcWatch& watch, const std:
 Status create_session(service::MeshingService& service, const v1::CreateSessionRequest& request, v1::Session& response) {
     const Expected<std::optional<MeshFormat>> format = wire::from_proto(request.format());
     if (!format) return format.error();
-    if (Status repair = wire::check_repair(request.repair()); !repair) return repair;
+    const Expected<std::optional<RepairMode>> repair = wire::from_proto(request.repair());
+    if (!repair) return repair.error();
     const Expected<service::SessionSnapshot> created =
-        request.mesh().empty() ? service.create_session()
-                               : service.create_session(std::as_bytes(std::span(request.mesh())), {*format, request.weld()});
+        request.mesh().empty()
+            ? service.create_session()
+            : service.create_session(std::as_bytes(std::span(request.mesh())), {*format, request.weld(), *repair});
     if (!created) return created.error();
     response = to_proto(*created);
     return Done{};
