@@ -301,6 +301,24 @@ v1::MeshFormat to_proto(std::optional<MeshFormat> format) {
             return v1::PLY_ASCII;
         case MeshFormat::kOff:
             return v1::OFF;
+        case MeshFormat::kMsh:
+            return v1::MSH;
+        case MeshFormat::kMshAscii:
+            return v1::MSH_ASCII;
+        case MeshFormat::kMsh2:
+            return v1::MSH2;
+        case MeshFormat::kMsh2Ascii:
+            return v1::MSH2_ASCII;
+        case MeshFormat::kInp:
+            return v1::INP;
+        case MeshFormat::kBdf:
+            return v1::BDF;
+        case MeshFormat::kVtk:
+            return v1::VTK;
+        case MeshFormat::kVtkAscii:
+            return v1::VTK_ASCII;
+        case MeshFormat::kVtu:
+            return v1::VTU;
     }
     return v1::MESH_FORMAT_UNSPECIFIED;
 }
@@ -321,9 +339,28 @@ Expected<std::optional<MeshFormat>> from_proto(v1::MeshFormat format) {
             return std::optional(MeshFormat::kPlyAscii);
         case v1::OFF:
             return std::optional(MeshFormat::kOff);
+        case v1::MSH:
+            return std::optional(MeshFormat::kMsh);
+        case v1::MSH_ASCII:
+            return std::optional(MeshFormat::kMshAscii);
+        case v1::MSH2:
+            return std::optional(MeshFormat::kMsh2);
+        case v1::MSH2_ASCII:
+            return std::optional(MeshFormat::kMsh2Ascii);
+        case v1::INP:
+            return std::optional(MeshFormat::kInp);
+        case v1::BDF:
+            return std::optional(MeshFormat::kBdf);
+        case v1::VTK:
+            return std::optional(MeshFormat::kVtk);
+        case v1::VTK_ASCII:
+            return std::optional(MeshFormat::kVtkAscii);
+        case v1::VTU:
+            return std::optional(MeshFormat::kVtu);
         default:
             return unknown_number("format", format,
-                                  "STL, STL_ASCII, OBJ, PLY, PLY_ASCII, OFF, or none to tell it from the bytes");
+                                  "STL, STL_ASCII, OBJ, PLY, PLY_ASCII, OFF, MSH, MSH_ASCII, MSH2, MSH2_ASCII, INP, BDF, VTK, VTK_ASCII, VTU, or none "
+                                  "to tell it from the bytes");
     }
 }
 
