@@ -188,8 +188,7 @@ TEST(ConvertTest, UnknownEnumNumbersAreNamedErrors) {
 }
 
 TEST(ConvertTest, FormatsSurviveTheWay) {
-    for (const MeshFormat format : {MeshFormat::kStlBinary, MeshFormat::kStlAscii, MeshFormat::kObj, MeshFormat::kPlyBinary,
-                                    MeshFormat::kPlyAscii, MeshFormat::kOff}) {
+    for (const MeshFormat format : mesh_formats()) {
         EXPECT_NE(to_proto(std::optional(format)), v1::MESH_FORMAT_UNSPECIFIED);
         EXPECT_EQ(*from_proto(to_proto(std::optional(format))), format);
     }

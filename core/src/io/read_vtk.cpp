@@ -20,7 +20,7 @@ std::optional<Kind> kind_of(std::string_view name) {
         std::string_view name;
         Kind kind;
     };
-    static constexpr std::array<Known, 13> kKnown = {{{"char", Kind::kInt8},
+    static constexpr std::array<Known, 15> kKnown = {{{"char", Kind::kInt8},
                                                       {"unsigned_char", Kind::kUint8},
                                                       {"short", Kind::kInt16},
                                                       {"unsigned_short", Kind::kUint16},
@@ -30,6 +30,8 @@ std::optional<Kind> kind_of(std::string_view name) {
                                                       {"unsigned_long", Kind::kUint64},
                                                       {"vtktypeint64", Kind::kInt64},
                                                       {"vtktypeint32", Kind::kInt32},
+                                                      {"vtktypeuint64", Kind::kUint64},
+                                                      {"vtktypeuint32", Kind::kUint32},
                                                       {"vtkIdType", Kind::kInt64},
                                                       {"float", Kind::kFloat32},
                                                       {"double", Kind::kFloat64}}};

@@ -13,21 +13,28 @@ namespace {
 constexpr std::size_t kWide = 16;
 constexpr std::size_t kNarrow = 8;
 
-/// A number in at most 16 characters, with a point and without an E, as precise as that allows: 13 digits at the least.
+/// With a point and without an E, as Nastran allows: "1.5e-07" as "1.5-7", "0.25" as ".25".
+std::string without_e(std::string text) {
+    const std::size_t e = text.find('e');
+    std::string exponent = e == std::string::npos ? "" : text.substr(e + 1);
+    text.resize(std::min(e, text.size()));
+    if (text.find('.') == std::string::npos) text += '.';
+    if (exponent.size() > 2 && exponent[1] == '0') exponent.erase(1, 1);
+    const std::size_t zero = text.front() == '-' ? 1 : 0;
+    if (text.size() > zero + 2 && text[zero] == '0') text.erase(zero, 1);
+    return text + exponent;
+}
+
+/// A number in at most 16 characters, as precise as that allows: to 11 digits at least.
 std::string nastran_real(double value) {
-    if (value == 0) return "0.";
     std::array<char, 32> digits;
     for (int precision = 17; precision > 0; --precision) {
-        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, precision);
-        std::string text(digits.data(), end.ptr);
-        const std::size_t e = text.find('e');
-        std::string exponent = e == std::string::npos ? "" : text.substr(e + 1);
-        text.resize(std::min(e, text.size()));
-        if (text.find('.') == std::string::npos) text += '.';
-        if (exponent.size() > 2 && exponent[1] == '0') exponent.erase(1, 1);
-        text += exponent;
-        if (text.starts_with("0.") && text.size() > 2) text.erase(0, 1);
-        if (text.size() <= kWide) return text;
+        for (const auto form : {std::chars_format::general, std::chars_format::scientific}) {
+            const int behind = form == std::chars_format::general ? precision : precision - 1;
+            const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, form, behind);
+            std::string text = without_e({digits.data(), end.ptr});
+            if (text.size() <= kWide) return text;
+        }
     }
     return "0.";
 }

@@ -160,7 +160,7 @@ private:
 
     void write_elements_2() {
         out_ << "$Elements\n" << std::to_string(mesh_.faces.size()) << "\n";
-        if (!text_) {
+        if (!text_ && !mesh_.faces.empty()) {
             for (const std::int32_t n : {kTriangle, static_cast<std::int32_t>(mesh_.faces.size()), 2}) out_.put(n);
         }
         for (std::size_t f = 0; f < mesh_.faces.size(); ++f) write_element_2(f);

@@ -10,7 +10,7 @@
 namespace vsplit {
 
 /// The bytes of a mesh file. STL holds single precision (the format knows no other); BDF
-/// 13 digits or more; all others keep doubles exactly
+/// 11 digits or more; all others keep doubles exactly
 /// (shortest text that reads back equal; PLY properties of type double). The same mesh gives the same bytes, always.
 /// O(faces) time; memory: the file.
 [[nodiscard]] std::string write_mesh(const TriangleMesh& mesh, MeshFormat format);
