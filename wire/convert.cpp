@@ -359,7 +359,8 @@ Expected<std::optional<MeshFormat>> from_proto(v1::MeshFormat format) {
             return std::optional(MeshFormat::kVtu);
         default:
             return unknown_number("format", format,
-                                  "STL, STL_ASCII, OBJ, PLY, PLY_ASCII, OFF, MSH, MSH_ASCII, MSH2, MSH2_ASCII, INP, BDF, VTK, VTK_ASCII, VTU, or none "
+                                  "STL, STL_ASCII, OBJ, PLY, PLY_ASCII, OFF, MSH, MSH_ASCII, MSH2, MSH2_ASCII, INP, BDF, VTK, "
+                                  "VTK_ASCII, VTU, or none "
                                   "to tell it from the bytes");
     }
 }

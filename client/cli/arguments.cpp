@@ -71,14 +71,17 @@ void add_input(CLI::App& verb, Arguments& a, const char* what) {
 }
 
 void add_output(CLI::App& verb, Arguments& a) {
-    verb.add_option("-o,--output", a.outputs,
-                    "File to write, its format by extension: .stl .obj .ply .off .msh .inp .bdf .vtk .vtu .vsplit; may be repeated")
+    verb.add_option(
+            "-o,--output", a.outputs,
+            "File to write, its format by extension: .stl .obj .ply .off .msh .inp .bdf .vtk .vtu .vsplit; may be repeated")
         ->type_name("OUT")
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);
-    verb.add_option("--format", a.format, "Format of OUT instead: stl, stl-ascii, obj, ply, ply-ascii, off, msh, msh-ascii, msh2, msh2-ascii, inp, bdf, vtk, vtk-ascii, "
-                   "vtu or vsplit")
+    verb.add_option("--format", a.format,
+                    "Format of OUT instead: stl, stl-ascii, obj, ply, ply-ascii, off, msh, msh-ascii, msh2, msh2-ascii, inp, "
+                    "bdf, vtk, vtk-ascii, "
+                    "vtu or vsplit")
         ->type_name("F");
     verb.add_flag("--json", a.json, "Print one JSON document on the standard output");
     verb.add_flag("--no-progress", a.no_progress, "No progress bar; there is none anyway where stderr is no terminal");
@@ -258,7 +261,9 @@ void add_quality(CLI::App& app, Arguments& a) {
 
 void add_improve(CLI::App& app, Arguments& a) {
     CLI::App& verb = *app.add_subcommand("improve", "Improve the shape of the faces within a tolerance of the surface");
-    add_input(verb, a, "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or .vsplit file");
+    add_input(verb, a,
+              "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or "
+              ".vsplit file");
     verb.add_option("--subdivide", a.improve.subdivision_size,
                     "Split edges until none is longer (the paper's sigma_SZ); length > 0. Default the mean edge of --faces, or "
                     "1.5 % of the "
@@ -281,7 +286,9 @@ void add_improve(CLI::App& app, Arguments& a) {
 void add_control(CLI::App& app, Arguments& a) {
     CLI::App& verb =
         *app.add_subcommand("control", "Bring stretch, size and valence within bounds; for meshes that were improved");
-    add_input(verb, a, "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or .vsplit file");
+    add_input(verb, a,
+              "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or "
+              ".vsplit file");
     verb.add_option("--subdivisions", a.control.subdivisions, "One-to-four subdivisions first; 0 to 12. Default 1")
         ->check(whole_number())
         ->type_name("n");

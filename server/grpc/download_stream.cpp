@@ -45,8 +45,8 @@ const char* content_type(MeshFormat format) {
     return "application/octet-stream";  // none of them has a registered type
 }
 
-// E.g. "r1-5000.stl", "mesh-1234.ply". A format's name is its extension, with "-ascii" after it where there are two kinds, and a 2
-// where there are two versions.
+// E.g. "r1-5000.stl", "mesh-1234.ply". A format's name is its extension, with "-ascii" after it where there are two kinds, and a
+// 2 where there are two versions.
 std::string file_name(const service::MeshRef& mesh, MeshFormat format) {
     const std::string_view name = format == MeshFormat::kMsh2 || format == MeshFormat::kMsh2Ascii ? "msh" : format_name(format);
     return (mesh.representation.empty() ? std::string("mesh") : mesh.representation) + '-' + std::to_string(mesh.faces) + '.' +

@@ -8,6 +8,7 @@
 #include "wire/base_mesh.h"
 #include "wire/convert.h"
 #include "wire/error_table.h"
+#include "wire/regions.h"
 
 namespace vsplit::rpc {
 
@@ -15,12 +16,17 @@ LevelParts::LevelParts(service::ResolutionPlan plan, RecordEncoding encoding)
     : plan_(std::move(plan)),
       encoding_(encoding),
       base_parts_(plan_.with_base ? wire::base_mesh_parts(plan_.representation->mrr().base) : 0),
+      region_parts_(plan_.with_base ? wire::region_parts(plan_.representation->mrr()) : 0),
       record_(plan_.first_record) {}
 
 bool LevelParts::next(v1::ProgressiveEvent& event) {
     if (base_part_ < base_parts_) {
         const MultiresMesh& mrr = plan_.representation->mrr();
         *event.mutable_base_mesh() = wire::base_mesh_part(mrr.base, base_part_++, mrr.ghosts);
+        return true;
+    }
+    if (region_part_ < region_parts_) {
+        *event.mutable_regions() = wire::region_part(plan_.representation->mrr(), region_part_++);
         return true;
     }
     if (record_ == plan_.last_record) return false;

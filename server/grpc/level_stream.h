@@ -27,6 +27,8 @@ private:
     const RecordEncoding encoding_;
     std::size_t base_part_ = 0;
     std::size_t base_parts_ = 0;
+    std::size_t region_part_ = 0;
+    std::size_t region_parts_ = 0;
     std::size_t record_ = 0;
 };
 

@@ -33,17 +33,13 @@ TEST(MeshFormatTest, UnknownNameListsTheNames) {
 }
 
 TEST(MeshFormatTest, ExtensionsInAnyCase) {
-    const std::vector<std::pair<std::string, MeshFormat>> cases = {{"a.stl", MeshFormat::kStlBinary},
-                                                                   {"/dir.obj/B.STL", MeshFormat::kStlBinary},
-                                                                   {"a.b.Obj", MeshFormat::kObj},
-                                                                   {"a.ply", MeshFormat::kPlyBinary},
-                                                                   {"a.off", MeshFormat::kOff},
-                                                                   {"a.msh", MeshFormat::kMsh},
-                                                                   {"a.inp", MeshFormat::kInp},
-                                                                   {"a.bdf", MeshFormat::kBdf},
-                                                                   {"a.NAS", MeshFormat::kBdf},
-                                                                   {"a.vtk", MeshFormat::kVtk},
-                                                                   {"a.vtu", MeshFormat::kVtu}};
+    const std::vector<std::pair<std::string, MeshFormat>> cases = {
+        {"a.stl", MeshFormat::kStlBinary}, {"/dir.obj/B.STL", MeshFormat::kStlBinary},
+        {"a.b.Obj", MeshFormat::kObj},     {"a.ply", MeshFormat::kPlyBinary},
+        {"a.off", MeshFormat::kOff},       {"a.msh", MeshFormat::kMsh},
+        {"a.inp", MeshFormat::kInp},       {"a.bdf", MeshFormat::kBdf},
+        {"a.NAS", MeshFormat::kBdf},       {"a.vtk", MeshFormat::kVtk},
+        {"a.vtu", MeshFormat::kVtu}};
     for (const auto& [name, format] : cases) {
         const Expected<MeshFormat> found = format_by_extension(name);
         ASSERT_TRUE(found) << name;

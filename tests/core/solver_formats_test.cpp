@@ -1,4 +1,5 @@
-// What solvers and mesh generators read and write: regions and sets on the way, the many layouts, and what is said of broken files.
+// What solvers and mesh generators read and write: regions and sets on the way, the many layouts, and what is said of broken
+// files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +38,8 @@ std::map<std::string, std::vector<std::uint32_t>> members(const TriangleMesh& me
     std::map<std::string, std::vector<std::uint32_t>> sets;
     for (const FaceSet& set : mesh.sets) {
         for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-            if (std::find(set.regions.begin(), set.regions.end(), mesh.regions[f]) != set.regions.end()) sets[set.name].push_back(f);
+            if (std::find(set.regions.begin(), set.regions.end(), mesh.regions[f]) != set.regions.end())
+                sets[set.name].push_back(f);
         }
     }
     return sets;
@@ -45,9 +47,9 @@ std::map<std::string, std::vector<std::uint32_t>> members(const TriangleMesh& me
 
 TEST(SolverFormatsTest, RegionsComeBackFromEveryFormatThatHasThem) {
     const TriangleMesh mesh = grouped_torus();
-    for (const MeshFormat format : {MeshFormat::kMsh, MeshFormat::kMshAscii, MeshFormat::kMsh2, MeshFormat::kMsh2Ascii,
-                                    MeshFormat::kInp, MeshFormat::kBdf, MeshFormat::kVtk, MeshFormat::kVtkAscii,
-                                    MeshFormat::kVtu}) {
+    for (const MeshFormat format :
+         {MeshFormat::kMsh, MeshFormat::kMshAscii, MeshFormat::kMsh2, MeshFormat::kMsh2Ascii, MeshFormat::kInp, MeshFormat::kBdf,
+          MeshFormat::kVtk, MeshFormat::kVtkAscii, MeshFormat::kVtu}) {
         const TriangleMesh same = must_read(write_mesh(mesh, format));
         EXPECT_EQ(same.faces, mesh.faces) << format_name(format);
         EXPECT_EQ(same.regions, mesh.regions) << format_name(format);
@@ -85,11 +87,12 @@ constexpr const char* kInpNodes = "*NODE\n1, 0, 0, 0\n2, 1, 0\n3, 0, 1.\n7, 1, 1
 TEST(SolverFormatsTest, InputDecksInTheirManyLayouts) {
     const std::string nodes = kInpNodes;
     const TriangleMesh two{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}};
-    for (const std::string& text :
-         {"*HEADING\nany text, 1\n" + nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n2, 2, 7, 3\n",
-          "** comment\n*Element, type = s3r\n1, 1, 2, 3,\n2, 2, 7, 3\n" + nodes, nodes + "*ELEMENT,TYPE=CPS3\n1,\n1, 2,\n3\n2, 2, 7, 3\n",
-          nodes + "*ELEMENT, TYPE=C3D4\n9, 1, 2, 3, 7\n*ELEMENT, TYPE=M3D3\n1, 1, 2, 3\n2, 2, 7, 3\n*MATERIAL, NAME=x\n*ELASTIC\n1, 2\n",
-          nodes + "*ELEMENT, TYPE=S6\n1, 1, 2, 3, 91, 92, 93\n2, 2, 7, 3, 94, 95, 96\n"}) {
+    for (const std::string& text : {"*HEADING\nany text, 1\n" + nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n2, 2, 7, 3\n",
+                                    "** comment\n*Element, type = s3r\n1, 1, 2, 3,\n2, 2, 7, 3\n" + nodes,
+                                    nodes + "*ELEMENT,TYPE=CPS3\n1,\n1, 2,\n3\n2, 2, 7, 3\n",
+                                    nodes + "*ELEMENT, TYPE=C3D4\n9, 1, 2, 3, 7\n*ELEMENT, TYPE=M3D3\n1, 1, 2, 3\n2, 2, 7, "
+                                            "3\n*MATERIAL, NAME=x\n*ELASTIC\n1, 2\n",
+                                    nodes + "*ELEMENT, TYPE=S6\n1, 1, 2, 3, 91, 92, 93\n2, 2, 7, 3, 94, 95, 96\n"}) {
         const TriangleMesh mesh = must_read(text);
         EXPECT_EQ(mesh, two) << text;
     }
@@ -97,12 +100,14 @@ TEST(SolverFormatsTest, InputDecksInTheirManyLayouts) {
 }
 
 TEST(SolverFormatsTest, SetsOfInputDecks) {
-    const std::string elements = std::string(kInpNodes) + "*ELEMENT, TYPE=S3, ELSET=a\n5, 1, 2, 3\n*ELEMENT, TYPE=S3\n6, 2, 7, 3\n";
+    const std::string elements =
+        std::string(kInpNodes) + "*ELEMENT, TYPE=S3, ELSET=a\n5, 1, 2, 3\n*ELEMENT, TYPE=S3\n6, 2, 7, 3\n";
     using Sets = std::map<std::string, std::vector<std::uint32_t>>;
     EXPECT_EQ(members(must_read(elements)), (Sets{{"a", {0}}}));
     EXPECT_EQ(members(must_read(elements + "*ELSET, ELSET=b, GENERATE\n1, 100, 5\n*ELSET, ELSET=c\nA, 6\n")),
               (Sets{{"a", {0}}, {"b", {1}}, {"c", {0, 1}}}));
-    EXPECT_EQ(members(must_read(elements + "*SURFACE, NAME=s, TYPE=ELEMENT\na, SPOS\n6, S1\n")), (Sets{{"a", {0}}, {"s", {0, 1}}}));
+    EXPECT_EQ(members(must_read(elements + "*SURFACE, NAME=s, TYPE=ELEMENT\na, SPOS\n6, S1\n")),
+              (Sets{{"a", {0}}, {"s", {0, 1}}}));
     EXPECT_EQ(members(must_read(elements + "*ELSET, ELSET=x\ny\n*ELSET, ELSET=y\nx, 6\n")),
               (Sets{{"a", {0}}, {"x", {1}}, {"y", {1}}}));
 }
@@ -110,8 +115,9 @@ TEST(SolverFormatsTest, SetsOfInputDecks) {
 TEST(SolverFormatsTest, BulkDataInSmallLargeAndFreeFields) {
     const TriangleMesh one{{{0, 0, 0}, {1.5, 0, 0}, {0, 0.025, -300}}, {{0, 1, 2}}};
     for (const std::string& text :
-         {std::string("BEGIN BULK\nGRID           1              0.      0.      0.\nGRID           2             1.5      0.      0.\n"
-                      "GRID           3              0.   2.5-2   -3.+2\nCTRIA3         4       1       1       2       3\nENDDATA\n"),
+         {std::string(
+              "BEGIN BULK\nGRID           1              0.      0.      0.\nGRID           2             1.5      0.      0.\n"
+              "GRID           3              0.   2.5-2   -3.+2\nCTRIA3         4       1       1       2       3\nENDDATA\n"),
           std::string("GRID*                  1                              0.              0.*G1\n*G1                   0.\n"
                       "GRID*                  2                         1.5D+00              0.*G2\n*G2                   0.\n"
                       "GRID*                  3                              0.          .025E0*G3\n*G3              -3.D2\n"
@@ -147,17 +153,21 @@ TEST(SolverFormatsTest, VtkFilesInTheirManyLayouts) {
           head + "POLYDATA\n" + points + "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2 3 1 3 2\nPOINT_DATA 4\nSCALARS a float\n",
           head + "UNSTRUCTURED_GRID\n" + points + "CELLS 3 11\n2 0 1\n3 0 1 2\n3 1 3 2\nCELL_TYPES 3\n3 5 5\n",
           head + "UNSTRUCTURED_GRID\n" + points +
-              "METADATA\nINFORMATION 0\n\nCELLS 3 6\nOFFSETS vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 1 3 2\nCELL_TYPES 2\n5\n5\n"}) {
+              "METADATA\nINFORMATION 0\n\nCELLS 3 6\nOFFSETS vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 1 3 "
+              "2\nCELL_TYPES 2\n5\n5\n"}) {
         EXPECT_EQ(must_read(text), two) << text;
     }
-    EXPECT_EQ(must_read(head + "POLYDATA\n" + points + "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2\n3 1 3 2\nCELL_DATA 3\n"
-                               "FIELD f 2\nother 2 3 float\n1 2 3 4 5 6\nPhysicalIds 1 3 int\n9 4 5\n")
+    EXPECT_EQ(must_read(head + "POLYDATA\n" + points +
+                        "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2\n3 1 3 2\nCELL_DATA 3\n"
+                        "FIELD f 2\nother 2 3 float\n1 2 3 4 5 6\nPhysicalIds 1 3 int\n9 4 5\n")
                   .regions,
               (std::vector<std::uint32_t>{4, 5}));
     const std::string vtu =
         "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" "
-        "NumberOfCells=\"2\">\n<PointData>\n<DataArray type=\"Float32\" Name=\"n\" format=\"ascii\">1 2 3 4</DataArray></PointData>"
-        "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 1 1 0</DataArray></Points>"
+        "NumberOfCells=\"2\">\n<PointData>\n<DataArray type=\"Float32\" Name=\"n\" format=\"ascii\">1 2 3 "
+        "4</DataArray></PointData>"
+        "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 1 1 "
+        "0</DataArray></Points>"
         "<Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2\n1 3 2</DataArray>"
         "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3 6</DataArray>"
         "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5 5</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
@@ -178,46 +188,57 @@ TEST(SolverFormatsTest, BrokenFilesAreErrorsThatSayWhere) {
     const std::string nodes = kInpNodes;
     const std::string grids = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n";
     const std::string msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n";
-    const std::string vtk = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n";
+    const std::string vtk =
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n";
     const std::vector<Broken> all{
         {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 99\n", Cause::kIndexOutOfRange, "line 7: element 1 names node 99"},
-        {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2\n*END\n", Cause::kMalformedInput, "line 7: element 1 of type 'S3' ends after 2 nodes"},
+        {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2\n*END\n", Cause::kMalformedInput,
+         "line 7: element 1 of type 'S3' ends after 2 nodes"},
         {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3, 7\n", Cause::kMalformedInput, "line 7: element 1 of type 'S3' has 4 nodes"},
         {nodes + "*ELEMENT, TYPE=S3\n1, 1, two, 3\n", Cause::kMalformedInput, "line 7: expected a node's number, found 'two'"},
         {nodes + "*ELEMENT\n1, 1, 2, 3\n", Cause::kMalformedInput, "line 6: *ELEMENT needs a TYPE"},
         {nodes + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 7\n", Cause::kUnsupported, "1 solid elements and no triangle"},
         {"*NODE\n1, 0, x, 0\n", Cause::kMalformedInput, "line 2: expected a coordinate, found 'x'"},
         {"*NODE\n1, 0, nan, 0\n", Cause::kInvalidCoordinate, "line 2"},
-        {nodes + "*NODE\n2, 5, 5, 5\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n", Cause::kMalformedInput, "line 7: node 2 is defined a second"},
+        {nodes + "*NODE\n2, 5, 5, 5\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n", Cause::kMalformedInput,
+         "line 7: node 2 is defined a second"},
         {nodes + "*INCLUDE, INPUT=x\n", Cause::kUnsupported, "line 6: *INCLUDE"},
         {nodes + "*PART, NAME=a\n*END PART\n*PART, NAME=b\n", Cause::kUnsupported, "line 8: a second *PART"},
-        {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n*ELSET, ELSET=s\nnone\n", Cause::kMalformedInput, "line 9: set 's' names the set 'none'"},
+        {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n*ELSET, ELSET=s\nnone\n", Cause::kMalformedInput,
+         "line 9: set 's' names the set 'none'"},
         {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n*ELSET\n1\n", Cause::kMalformedInput, "line 8: a set needs a name"},
         {nodes + "*ELSET, ELSET=s, GENERATE\n1, 2, 0\n", Cause::kMalformedInput, "line 7: expected a step"},
         {nodes, Cause::kEmptyInput, "no face"},
         {grids + "CTRIA3,1,1,1,2,9\n", Cause::kIndexOutOfRange, "line 4: element 1 names node 9"},
         {grids + "CTRIA3,1,1,1,2\n", Cause::kMalformedInput, "line 4: CTRIA3: expected a grid point's number in field 6"},
-        {grids + "CTRIA3,x,1,1,2,3\n", Cause::kMalformedInput, "line 4: CTRIA3: expected an element's number in field 2, found 'x'"},
+        {grids + "CTRIA3,x,1,1,2,3\n", Cause::kMalformedInput,
+         "line 4: CTRIA3: expected an element's number in field 2, found 'x'"},
         {"GRID,1,,zero,0.,0.\n", Cause::kMalformedInput, ""},
-        {"GRID,1,4,0.,0.,0.\nCTRIA3,1,1,1,1,1\n", Cause::kUnsupported, "line 1: GRID: grid point 1 is given in coordinate system '4'"},
+        {"GRID,1,4,0.,0.,0.\nCTRIA3,1,1,1,1,1\n", Cause::kUnsupported,
+         "line 1: GRID: grid point 1 is given in coordinate system '4'"},
         {grids + "CTETRA,1,1,1,2,3,4\n", Cause::kUnsupported, "1 solid elements"},
         {"$MeshFormat\n3 0 8\n$EndMeshFormat\n", Cause::kUnsupported, "line 2: version 3 is not read"},
         {"$MeshFormat\n2.2 0 8\n$EndMesh\n", Cause::kMalformedInput, "line 3: expected '$EndMeshFormat', found '$EndMesh'"},
         {msh + "$Elements\n1\n1 2 2 0 0 1 2 9\n$EndElements\n", Cause::kIndexOutOfRange, "line 12: element 1 names node 9"},
         {msh + "$Elements\n1\n1 77 2 0 0 1 2 3\n$EndElements\n", Cause::kUnsupported, "line 12: elements of type 77"},
-        {msh + "$Elements\n2\n1 2 2 0 0 1 2 3\n$EndElements\n", Cause::kMalformedInput, "line 13: expected an element's number, found '$EndElements'"},
+        {msh + "$Elements\n2\n1 2 2 0 0 1 2 3\n$EndElements\n", Cause::kMalformedInput,
+         "line 13: expected an element's number, found '$EndElements'"},
         {msh + "$Elements\n1\n1 2 2 0 0 1 2", Cause::kTruncatedInput, "line 12: the file ends where a node of an element"},
         {msh + "$Unknown\n1 2 3\n", Cause::kTruncatedInput, "the file ends before '$EndUnknown'"},
         {msh + "Elements\n", Cause::kMalformedInput, "line 10: expected the name of a section, found 'Elements'"},
         {vtk + "CELLS 1 4\n3 0 1 5\nCELL_TYPES 1\n5\n", Cause::kIndexOutOfRange, "element 0 names node 5"},
-        {vtk + "CELLS 1 4\n4 0 1 2\nCELL_TYPES 1\n5\n", Cause::kMalformedInput, "line 8: cell 0 is to have 4 points, but 3 numbers follow"},
-        {vtk + "CELLS 2 4\n3 0 1 2\nCELL_TYPES 1\n5\n", Cause::kMalformedInput, "line 8: 2 cells are announced, but the numbers make 1"},
+        {vtk + "CELLS 1 4\n4 0 1 2\nCELL_TYPES 1\n5\n", Cause::kMalformedInput,
+         "line 8: cell 0 is to have 4 points, but 3 numbers follow"},
+        {vtk + "CELLS 2 4\n3 0 1 2\nCELL_TYPES 1\n5\n", Cause::kMalformedInput,
+         "line 8: 2 cells are announced, but the numbers make 1"},
         {vtk + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n99\n", Cause::kUnsupported, "cell 0 is of type 99"},
         {vtk + "CELLS 1 5\n4 0 1 2 2\nCELL_TYPES 1\n10\n", Cause::kUnsupported, "1 solid elements"},
         {vtk + "CELLS 1 4\n3 0 one 2\n", Cause::kMalformedInput, "line 8: expected a point of a cell, found 'one'"},
-        {"# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n", Cause::kUnsupported, "line 4: a dataset of 'STRUCTURED_POINTS'"},
+        {"# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n", Cause::kUnsupported,
+         "line 4: a dataset of 'STRUCTURED_POINTS'"},
         {"<VTKFile type=\"PolyData\">\n", Cause::kUnsupported, "line 1: a file of type 'PolyData'"},
-        {"<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\">", Cause::kUnsupported, "'vtkLZ4DataCompressor' is not read"},
+        {"<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\">", Cause::kUnsupported,
+         "'vtkLZ4DataCompressor' is not read"},
         {"<VTKFile type=\"UnstructuredGrid\">\n<Piece", Cause::kTruncatedInput, "line 2: the file ends within the tag 'Piece'"},
         {"<VTKFile type=\"UnstructuredGrid\">\n<Points>\n</Points></VTKFile>", Cause::kMalformedInput, "the file has no Points"},
     };

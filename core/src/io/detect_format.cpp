@@ -101,12 +101,13 @@ MeshFormat kind_of_vtk(std::string_view text) {
 
 /// Nastran's cards and the lines around them, as far as one can see.
 bool has_nastran_line(std::string_view text) {
-    constexpr std::array<std::string_view, 11> kBegins = {"BEGIN BULK", "GRID", "CTRIA", "CQUAD", "ENDDATA", "NASTRAN ", "SOL ",
-                                                          "CEND",       "MAT1", "PSHELL", "ID "};
+    constexpr std::array<std::string_view, 11> kBegins = {"BEGIN BULK", "GRID", "CTRIA", "CQUAD",  "ENDDATA", "NASTRAN ",
+                                                          "SOL ",       "CEND", "MAT1",  "PSHELL", "ID "};
     TextLines lines(text);
     while (lines.next()) {
         const std::string line = upper_case(lines.line());
-        if (std::any_of(kBegins.begin(), kBegins.end(), [&](std::string_view begin) { return line.starts_with(begin); })) return true;
+        if (std::any_of(kBegins.begin(), kBegins.end(), [&](std::string_view begin) { return line.starts_with(begin); }))
+            return true;
         if (!trimmed(line).empty() && !line.starts_with('$')) return false;
     }
     return false;
@@ -116,7 +117,8 @@ std::optional<MeshFormat> detect_for_solvers(std::string_view text) {
     if (text.starts_with("# vtk DataFile")) return kind_of_vtk(text);
     std::string_view rest = text;
     const std::string_view word = next_word(rest);
-    if (word == "$MeshFormat" || (word == "$Comments" && text.find("$MeshFormat") != std::string_view::npos)) return kind_of_msh(text);
+    if (word == "$MeshFormat" || (word == "$Comments" && text.find("$MeshFormat") != std::string_view::npos))
+        return kind_of_msh(text);
     const bool xml = word.starts_with("<?xml") || word.starts_with("<VTKFile") || word.starts_with("<!--");
     if (xml && text.find("<VTKFile") != std::string_view::npos) return MeshFormat::kVtu;
     if (has_zeros(text)) return {};

@@ -94,7 +94,7 @@ private:
     std::vector<Corner> corners_;
     std::vector<Node> elements_;  // id and first face, ascending by id
     std::vector<Set> sets_;
-    std::map<std::string, std::size_t> set_numbers_;  // by name in upper case
+    std::map<std::string, std::size_t> set_numbers_;   // by name in upper case
     std::vector<std::vector<std::uint32_t>> sets_of_;  // of each face, ascending
     std::uint64_t memberships_ = 0;
     std::uint64_t solids_ = 0;

@@ -16,20 +16,20 @@ struct FormatName {
 };
 
 constexpr std::array<FormatName, 15> kFormats = {{{"stl", MeshFormat::kStlBinary, ".stl"},
-                                                 {"stl-ascii", MeshFormat::kStlAscii, ""},
-                                                 {"obj", MeshFormat::kObj, ".obj"},
-                                                 {"ply", MeshFormat::kPlyBinary, ".ply"},
-                                                 {"ply-ascii", MeshFormat::kPlyAscii, ""},
-                                                 {"off", MeshFormat::kOff, ".off"},
-                                                 {"msh", MeshFormat::kMsh, ".msh"},
-                                                 {"msh-ascii", MeshFormat::kMshAscii, ""},
-                                                 {"msh2", MeshFormat::kMsh2, ""},
-                                                 {"msh2-ascii", MeshFormat::kMsh2Ascii, ""},
-                                                 {"inp", MeshFormat::kInp, ".inp"},
-                                                 {"bdf", MeshFormat::kBdf, ".bdf"},
-                                                 {"vtk", MeshFormat::kVtk, ".vtk"},
-                                                 {"vtk-ascii", MeshFormat::kVtkAscii, ""},
-                                                 {"vtu", MeshFormat::kVtu, ".vtu"}}};
+                                                  {"stl-ascii", MeshFormat::kStlAscii, ""},
+                                                  {"obj", MeshFormat::kObj, ".obj"},
+                                                  {"ply", MeshFormat::kPlyBinary, ".ply"},
+                                                  {"ply-ascii", MeshFormat::kPlyAscii, ""},
+                                                  {"off", MeshFormat::kOff, ".off"},
+                                                  {"msh", MeshFormat::kMsh, ".msh"},
+                                                  {"msh-ascii", MeshFormat::kMshAscii, ""},
+                                                  {"msh2", MeshFormat::kMsh2, ""},
+                                                  {"msh2-ascii", MeshFormat::kMsh2Ascii, ""},
+                                                  {"inp", MeshFormat::kInp, ".inp"},
+                                                  {"bdf", MeshFormat::kBdf, ".bdf"},
+                                                  {"vtk", MeshFormat::kVtk, ".vtk"},
+                                                  {"vtk-ascii", MeshFormat::kVtkAscii, ""},
+                                                  {"vtu", MeshFormat::kVtu, ".vtu"}}};
 
 /// "a, b, c".
 std::string list_of(std::string_view FormatName::*column) {

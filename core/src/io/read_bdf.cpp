@@ -13,8 +13,8 @@
 namespace vsplit {
 namespace {
 
-/// A card as Nastran has them, put together from its lines: small field (8 columns), large field (16, a star at the name), or free
-/// field (commas), each way with continuations.
+/// A card as Nastran has them, put together from its lines: small field (8 columns), large field (16, a star at the name), or
+/// free field (commas), each way with continuations.
 struct Card {
     std::string name;
     std::vector<std::string_view> fields;
@@ -108,7 +108,8 @@ private:
         if (card.name == "GRID") return use_grid(card);
         if (card.name == "CTRIA3" || card.name == "CTRIA6" || card.name == "CTRIAR") return use_face(card, 3);
         if (card.name == "CQUAD4" || card.name == "CQUAD8" || card.name == "CQUADR") return use_face(card, 4);
-        if (card.name == "CTETRA" || card.name == "CHEXA" || card.name == "CPENTA" || card.name == "CPYRAM") builder_.skip_solid();
+        if (card.name == "CTETRA" || card.name == "CHEXA" || card.name == "CPENTA" || card.name == "CPYRAM")
+            builder_.skip_solid();
         if (card.name == "INCLUDE" || card.name.starts_with("INCLUDE"))
             return error(card, Cause::kUnsupported, "INCLUDE is not followed; put the mesh into one file");
         return Done{};

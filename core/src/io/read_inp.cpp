@@ -27,12 +27,11 @@ std::optional<ElementType> element_type(std::string_view name) {
         std::string_view prefix;
         ElementType type;
     };
-    static constexpr std::array<Known, 21> kKnown = {{{"STRI65", {6, 3}}, {"STRI3", {3, 3}},  {"SFM3D3", {3, 3}}, {"SFM3D6", {6, 3}},
-                                                      {"M3D3", {3, 3}},   {"M3D6", {6, 3}},   {"R3D3", {3, 3}},   {"R3D4", {4, 4}},
-                                                      {"CPS3", {3, 3}},   {"CPS6", {6, 3}},   {"CPE3", {3, 3}},   {"CPE6", {6, 3}},
-                                                      {"C3D4", {4, 0}},   {"C3D10", {10, 0}}, {"C3D8", {8, 0}},   {"C3D20", {20, 0}},
-                                                      {"C3D6", {6, 0}},   {"C3D15", {15, 0}}, {"S3", {3, 3}},     {"S6", {6, 3}},
-                                                      {"S4", {4, 4}}}};
+    static constexpr std::array<Known, 21> kKnown = {
+        {{"STRI65", {6, 3}}, {"STRI3", {3, 3}},  {"SFM3D3", {3, 3}}, {"SFM3D6", {6, 3}}, {"M3D3", {3, 3}}, {"M3D6", {6, 3}},
+         {"R3D3", {3, 3}},   {"R3D4", {4, 4}},   {"CPS3", {3, 3}},   {"CPS6", {6, 3}},   {"CPE3", {3, 3}}, {"CPE6", {6, 3}},
+         {"C3D4", {4, 0}},   {"C3D10", {10, 0}}, {"C3D8", {8, 0}},   {"C3D20", {20, 0}}, {"C3D6", {6, 0}}, {"C3D15", {15, 0}},
+         {"S3", {3, 3}},     {"S6", {6, 3}},     {"S4", {4, 4}}}};
     for (const Known& known : kKnown) {
         if (name.starts_with(known.prefix)) return known.type;
     }

@@ -30,10 +30,11 @@ MeshFormat family_of(MeshFormat format) {
 Expected<MeshFormat> choose_format(std::span<const std::byte> bytes, std::optional<MeshFormat> asked) {
     const std::optional<MeshFormat> detected = detect_format(bytes);
     if (!detected && !asked) {
-        return Error{Cause::kUnknownFormat,
-                     "byte 0: the bytes are of no format that is read: STL (binary, ASCII), OBJ, PLY (binary, ASCII), OFF, MSH, INP, "
-                     "BDF, VTK, VTU",
-                     ""};
+        return Error{
+            Cause::kUnknownFormat,
+            "byte 0: the bytes are of no format that is read: STL (binary, ASCII), OBJ, PLY (binary, ASCII), OFF, MSH, INP, "
+            "BDF, VTK, VTU",
+            ""};
     }
     if (!detected) return *asked;
     if (asked && family_of(*asked) != family_of(*detected)) {

@@ -26,10 +26,10 @@ struct MshElement {
 
 std::optional<MshElement> msh_element(std::int64_t type) {
     static const std::map<std::int64_t, MshElement> known{
-        {1, {2, 0, 1}},  {2, {3, 3, 2}},   {3, {4, 4, 2}},   {4, {4, 0, 3}},   {5, {8, 0, 3}},   {6, {6, 0, 3}},
-        {7, {5, 0, 3}},  {8, {3, 0, 1}},   {9, {6, 3, 2}},   {10, {9, 4, 2}},  {11, {10, 0, 3}}, {12, {27, 0, 3}},
-        {13, {18, 0, 3}}, {14, {14, 0, 3}}, {15, {1, 0, 0}},  {16, {8, 4, 2}},  {17, {20, 0, 3}}, {18, {15, 0, 3}},
-        {19, {13, 0, 3}}, {20, {9, 3, 2}},  {21, {10, 3, 2}}, {26, {4, 0, 1}},  {27, {5, 0, 1}},  {29, {20, 0, 3}}};
+        {1, {2, 0, 1}},   {2, {3, 3, 2}},   {3, {4, 4, 2}},   {4, {4, 0, 3}},  {5, {8, 0, 3}},   {6, {6, 0, 3}},
+        {7, {5, 0, 3}},   {8, {3, 0, 1}},   {9, {6, 3, 2}},   {10, {9, 4, 2}}, {11, {10, 0, 3}}, {12, {27, 0, 3}},
+        {13, {18, 0, 3}}, {14, {14, 0, 3}}, {15, {1, 0, 0}},  {16, {8, 4, 2}}, {17, {20, 0, 3}}, {18, {15, 0, 3}},
+        {19, {13, 0, 3}}, {20, {9, 3, 2}},  {21, {10, 3, 2}}, {26, {4, 0, 1}}, {27, {5, 0, 1}},  {29, {20, 0, 3}}};
     const auto found = known.find(type);
     return found == known.end() ? std::nullopt : std::optional(found->second);
 }
@@ -203,8 +203,7 @@ private:
         }
         if (!in_.ok()) return;
         if (type.dimension == 3) builder_.skip_solid();
-        if (type.corners > 0)
-            in_.keep(builder_.add_element(tag, std::span(corners).first(type.corners), in_.place(), region));
+        if (type.corners > 0) in_.keep(builder_.add_element(tag, std::span(corners).first(type.corners), in_.place(), region));
     }
 
     /// The count is text always; what follows may be bytes.

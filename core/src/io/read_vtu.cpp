@@ -29,8 +29,9 @@ struct VtuArray {
 
 std::optional<Kind> kind_of(std::string_view name) {
     static const std::map<std::string_view, Kind> kinds{
-        {"Int8", Kind::kInt8},     {"UInt8", Kind::kUint8}, {"Int16", Kind::kInt16},   {"UInt16", Kind::kUint16},  {"Int32", Kind::kInt32},
-        {"UInt32", Kind::kUint32}, {"Int64", Kind::kInt64}, {"UInt64", Kind::kUint64}, {"Float32", Kind::kFloat32}, {"Float64", Kind::kFloat64}};
+        {"Int8", Kind::kInt8},       {"UInt8", Kind::kUint8},    {"Int16", Kind::kInt16}, {"UInt16", Kind::kUint16},
+        {"Int32", Kind::kInt32},     {"UInt32", Kind::kUint32},  {"Int64", Kind::kInt64}, {"UInt64", Kind::kUint64},
+        {"Float32", Kind::kFloat32}, {"Float64", Kind::kFloat64}};
     const auto found = kinds.find(name);
     return found == kinds.end() ? std::nullopt : std::optional(found->second);
 }
@@ -170,7 +171,8 @@ private:
         const Expected<std::vector<double>> values = required("Points", "");
         if (!values) return values.error();
         const Place place = at_line(line_of("Points", ""));
-        if (values->size() % 3 != 0) return read_error(Cause::kMalformedInput, place, "points do not have three coordinates each");
+        if (values->size() % 3 != 0)
+            return read_error(Cause::kMalformedInput, place, "points do not have three coordinates each");
         for (std::size_t i = 0; i < values->size(); i += 3) {
             const Vec3 point((*values)[i], (*values)[i + 1], (*values)[i + 2]);
             if (Status added = cells_.add_point(point, place); !added) return added;

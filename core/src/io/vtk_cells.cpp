@@ -12,7 +12,7 @@ namespace {
 /// Corners of a cell that is a face, 0 for one that is none, of VTK's types; -1: a solid; -2: unknown.
 int corners_of(std::int64_t type, std::size_t points) {
     switch (type) {
-        case 1:   // vertex, poly-vertex, line, poly-line, quadratic edge
+        case 1:  // vertex, poly-vertex, line, poly-line, quadratic edge
         case 2:
         case 3:
         case 4:
@@ -41,9 +41,9 @@ constexpr std::int64_t kPolygon = 7;
 }  // namespace
 
 bool is_region_name(std::string_view name) {
-    constexpr std::array<std::string_view, 14> kNames = {"region",      "regions",      "region_id", "regionid",    "group",
-                                                         "group_id",    "physicalids",  "label",     "gmsh:physical", "cellentityids",
-                                                         "material_id", "materialids", "face_id",   "pid"};
+    constexpr std::array<std::string_view, 14> kNames = {
+        "region", "regions",       "region_id",     "regionid",    "group",       "group_id", "physicalids",
+        "label",  "gmsh:physical", "cellentityids", "material_id", "materialids", "face_id",  "pid"};
     return std::any_of(kNames.begin(), kNames.end(), [&](std::string_view known) { return equals_ignoring_case(known, name); });
 }
 
@@ -91,9 +91,9 @@ Status VtkCells::set_offsets(const std::vector<std::int64_t>& offsets, std::vect
 Status VtkCells::set_regions(const std::vector<double>& values, Place place) {
     constexpr double kLargest = 4294967294;
     if (values.size() != before_ + cells_.size()) {
-        return read_error(Cause::kMalformedInput, place,
-                          std::to_string(values.size()) + " values are given for " + std::to_string(before_ + cells_.size()) +
-                              " cells");
+        return read_error(
+            Cause::kMalformedInput, place,
+            std::to_string(values.size()) + " values are given for " + std::to_string(before_ + cells_.size()) + " cells");
     }
     regions_.clear();
     for (std::size_t i = before_; i < values.size(); ++i) {

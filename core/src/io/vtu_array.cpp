@@ -75,9 +75,9 @@ Error short_array(Place place) {
 }
 
 Error long_array(Place place, std::uint64_t bytes, const VtuEncoding& e) {
-    return read_error(Cause::kLimitExceeded, place,
-                      "an array announces " + std::to_string(bytes) + " bytes; at most " + std::to_string(e.most_bytes) +
-                          " are accepted");
+    return read_error(
+        Cause::kLimitExceeded, place,
+        "an array announces " + std::to_string(bytes) + " bytes; at most " + std::to_string(e.most_bytes) + " are accepted");
 }
 
 Expected<Bytes> decode_plain(Runs runs, const VtuEncoding& e, Place place) {
@@ -116,8 +116,8 @@ Expected<Bytes> decode_blocks(Runs runs, const VtuEncoding& e, Place place) {
         const std::size_t before = all.size();
         all.resize(before + expected);
         uLongf made = expected;
-        const int status = uncompress(reinterpret_cast<Bytef*>(all.data() + before), &made,
-                                      reinterpret_cast<const Bytef*>(from), static_cast<uLong>(length));
+        const int status = uncompress(reinterpret_cast<Bytef*>(all.data() + before), &made, reinterpret_cast<const Bytef*>(from),
+                                      static_cast<uLong>(length));
         if (status != Z_OK || made != expected)
             return read_error(Cause::kMalformedInput, place, "block " + std::to_string(b) + " of an array is not zlib's");
         from += length;

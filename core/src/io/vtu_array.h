@@ -14,8 +14,8 @@ namespace vsplit {
 /// How the arrays of a VTU file are written.
 struct VtuEncoding {
     std::endian order = std::endian::little;
-    std::size_t header = 4;     ///< bytes of a length: 4 or 8
-    bool zlib = false;          ///< in blocks that zlib has compressed
+    std::size_t header = 4;      ///< bytes of a length: 4 or 8
+    bool zlib = false;           ///< in blocks that zlib has compressed
     std::size_t most_bytes = 0;  ///< of an array after that: more is an error
 };
 

@@ -85,7 +85,8 @@ private:
     /// A surface a region, with its physical tags; no curves around them.
     void write_entities() {
         out_ << "$Entities\n";
-        for (const std::size_t count : {std::size_t{0}, std::size_t{0}, regions_.size(), std::size_t{0}}) out_.put(std::uint64_t{count});
+        for (const std::size_t count : {std::size_t{0}, std::size_t{0}, regions_.size(), std::size_t{0}})
+            out_.put(std::uint64_t{count});
         out_.end_row();
         for (std::size_t i = 0; i < regions_.size(); ++i) write_entity(static_cast<std::int32_t>(i + 1), regions_[i]);
         end_section("$EndEntities");

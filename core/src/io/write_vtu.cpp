@@ -36,7 +36,10 @@ std::string write_vtu(const TriangleMesh& mesh) {
     std::string text =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
         "header_type=\"UInt64\">\n  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"";
-    text.append(std::to_string(mesh.positions.size())).append("\" NumberOfCells=\"").append(std::to_string(faces)).append("\">\n");
+    text.append(std::to_string(mesh.positions.size()))
+        .append("\" NumberOfCells=\"")
+        .append(std::to_string(faces))
+        .append("\">\n");
     text += "      <Points>\n" + arrays.add("Float64", "Points", "3", 24 * mesh.positions.size(), [&](NumberWriter& out) {
         for (const Vec3& position : mesh.positions) out.put(position);
     }) + "      </Points>\n      <Cells>\n";

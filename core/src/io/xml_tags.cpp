@@ -18,8 +18,8 @@ std::string_view XmlTag::attribute(std::string_view key) const {
 
 void XmlTags::go_to(std::size_t at) {
     at = std::min(at, text_.size());
-    line_ += static_cast<std::size_t>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
-                                                 text_.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+    line_ += static_cast<std::size_t>(
+        std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_), text_.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
     at_ = at;
 }
 
@@ -64,9 +64,9 @@ Status XmlTags::read_attributes(XmlTag& tag) {
         const bool good = open != std::string_view::npos && text_[equals] == '=' && (text_[open] == '"' || text_[open] == '\'');
         const std::size_t close = good ? text_.find(text_[open], open + 1) : std::string_view::npos;
         if (close == std::string_view::npos) {
-            return read_error(Cause::kMalformedInput, at_line(line_),
-                              "expected an attribute of " + quoted(tag.name) + " as name=\"value\", found " +
-                                  quoted(text_.substr(at_, 20)));
+            return read_error(
+                Cause::kMalformedInput, at_line(line_),
+                "expected an attribute of " + quoted(tag.name) + " as name=\"value\", found " + quoted(text_.substr(at_, 20)));
         }
         std::string_view key = text_.substr(at_, equals - at_);
         key = key.substr(0, key.find_first_of(kSpace));

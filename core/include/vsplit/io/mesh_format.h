@@ -31,8 +31,8 @@ enum class MeshFormat {
 /// All of them.
 [[nodiscard]] std::span<const MeshFormat> mesh_formats();
 
-/// "stl", "stl-ascii", "obj", "ply", "ply-ascii", "off", "msh", "msh-ascii", "msh2", "msh2-ascii", "inp", "bdf", "vtk", "vtk-ascii",
-/// "vtu".
+/// "stl", "stl-ascii", "obj", "ply", "ply-ascii", "off", "msh", "msh-ascii", "msh2", "msh2-ascii", "inp", "bdf", "vtk",
+/// "vtk-ascii", "vtu".
 [[nodiscard]] std::string_view format_name(MeshFormat format);
 
 /// The inverse of format_name. \return INVALID_OPTION listing the names.

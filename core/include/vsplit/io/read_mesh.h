@@ -32,7 +32,8 @@ struct ReadResult {
 /// Attributes other than positions, faces and regions are skipped. Nothing is repaired: a wrong byte is an error that says where
 /// (line for text, byte offset for binary), what was read and what was expected.
 /// \return EMPTY_INPUT, UNKNOWN_FORMAT, TRUNCATED_INPUT, MALFORMED_INPUT, INVALID_COORDINATE (NaN, infinite, or beyond 1e15 in
-///         magnitude), INDEX_OUT_OF_RANGE, LIMIT_EXCEEDED, UNSUPPORTED (e.g. binary OFF, a mesh of solids), INVALID_OPTION (weld).
+///         magnitude), INDEX_OUT_OF_RANGE, LIMIT_EXCEEDED, UNSUPPORTED (e.g. binary OFF, a mesh of solids), INVALID_OPTION
+///         (weld).
 /// Complexity: O(bytes). Memory: the mesh, and 20 bytes a vertex while welding.
 [[nodiscard]] Expected<ReadResult> read_mesh(std::span<const std::byte> bytes, const ReadOptions& options);
 

@@ -44,6 +44,8 @@ struct EventHandlers {
     std::function<Status(TriangleMesh base, std::uint32_t ghosts)> on_base_mesh;
     /// A block, its checksum verified; `first` is the number of its first record.
     std::function<Status(std::uint32_t first, const RecordSpan& records)> on_records;
+    /// A part of the regions, after the base mesh and before records, where there are any.
+    std::function<Status(const v1::Regions& part)> on_regions{};
 };
 
 }  // namespace vsplit::client

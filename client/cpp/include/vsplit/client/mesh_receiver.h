@@ -19,7 +19,7 @@ namespace vsplit::client {
 ///     if (Status shown = receiver.show(2000); shown) use(receiver.mesh());   // coarser: needs no server
 ///
 /// Everything that comes is checked by ProgressiveMesh before it is kept. Not thread-safe. Memory: that of ProgressiveMesh and
-/// of RecordList; once more the mesh shown where it has open boundaries.
+/// of RecordList; once more the mesh shown where it has open boundaries or regions.
 class MeshReceiver {
 public:
     /// `max_faces`: LIMIT_EXCEEDED when a stream builds more.
@@ -30,6 +30,9 @@ public:
 
     /// Starts anew with a base mesh. \return what ProgressiveMesh::from_base returns, LIMIT_EXCEEDED.
     [[nodiscard]] Status begin(TriangleMesh base, std::uint32_t ghosts = 0);
+
+    /// Adds a part of the regions. \return OUT_OF_ORDER, CORRUPT, LIMIT_EXCEEDED.
+    [[nodiscard]] Status take_regions(const v1::Regions& part);
 
     /// Adds records and shows them; a run may end between two splits. \return OUT_OF_ORDER when `first` is not the number of
     /// records held or no base mesh came before; CORRUPT for a record that does not fit the mesh; LIMIT_EXCEEDED.
@@ -60,7 +63,7 @@ private:
     std::uint32_t max_faces_;
     MultiresMesh held_;
     std::optional<ProgressiveMesh> progressive_;
-    mutable std::optional<std::size_t> visible_records_;  // what visible_ shows; only with ghosts
+    mutable std::optional<std::size_t> visible_records_;  // what visible_ shows; only with ghosts or regions
     mutable TriangleMesh visible_;
 };
 
