@@ -365,6 +365,49 @@ Expected<std::optional<MeshFormat>> from_proto(v1::MeshFormat format) {
     }
 }
 
+v1::ProfileReport to_proto(const ProfileReport& report) {
+    v1::ProfileReport proto;
+    switch (report.profile) {
+        case QualityProfile::kStretch02:
+            proto.set_profile(v1::STRETCH_02);
+            break;
+        case QualityProfile::kVerdict:
+            proto.set_profile(v1::VERDICT);
+            break;
+        case QualityProfile::kOptistruct:
+            proto.set_profile(v1::OPTISTRUCT);
+            break;
+    }
+    proto.set_passed(report.passed);
+    proto.set_warned(report.warned);
+    proto.set_failed(report.failed);
+    for (const CriterionReport& criterion : report.criteria) {
+        v1::CriterionReport& added = *proto.add_criteria();
+        added.set_name(criterion.name);
+        added.set_worst(criterion.worst);
+        added.set_worst_face(criterion.worst_face);
+        added.set_warned(criterion.warned);
+        added.set_failed(criterion.failed);
+    }
+    add_elements(report.worst, *proto.mutable_worst_faces());
+    return proto;
+}
+
+Expected<std::optional<QualityProfile>> from_proto(v1::QualityProfile profile) {
+    switch (profile) {
+        case v1::QUALITY_PROFILE_UNSPECIFIED:
+            return std::optional<QualityProfile>();
+        case v1::STRETCH_02:
+            return std::optional(QualityProfile::kStretch02);
+        case v1::VERDICT:
+            return std::optional(QualityProfile::kVerdict);
+        case v1::OPTISTRUCT:
+            return std::optional(QualityProfile::kOptistruct);
+        default:
+            return unknown_number("profile", profile, "STRETCH_02, VERDICT, OPTISTRUCT, or none");
+    }
+}
+
 Expected<std::optional<RepairMode>> from_proto(v1::Repair repair) {
     switch (repair) {
         case v1::REPAIR_UNSPECIFIED:

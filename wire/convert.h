@@ -11,6 +11,7 @@
 #include "vsplit/method/method_result.h"
 #include "vsplit/mrr/record_block.h"
 #include "vsplit/quality/mesh_quality.h"
+#include "vsplit/quality/element_quality.h"
 #include "vsplit/repair/repair_mesh.h"
 #include "vsplit/v1/meshing.pb.h"
 
@@ -69,6 +70,9 @@ namespace vsplit::wire {
 /// MESH_FORMAT_UNSPECIFIED becomes empty. \return INVALID_OPTION (field "format") for a number that is no format.
 [[nodiscard]] Expected<std::optional<MeshFormat>> from_proto(v1::MeshFormat format);
 
+[[nodiscard]] v1::ProfileReport to_proto(const ProfileReport& report);
+/// Empty where none is named. \return INVALID_OPTION for a number that names none.
+[[nodiscard]] Expected<std::optional<QualityProfile>> from_proto(v1::QualityProfile profile);
 /// Empty where none is named. \return INVALID_OPTION for a number that names none.
 [[nodiscard]] Expected<std::optional<RepairMode>> from_proto(v1::Repair repair);
 

@@ -248,6 +248,11 @@ void add_quality(CLI::App& app, Arguments& a) {
     verb.add_option("--against", a.against,
                     "Measure the distance to this mesh or .vsplit file instead, both ways and between creases; not with a server")
         ->type_name("FILE");
+    add_choice<v1::QualityProfile>(
+        verb, "--profile", {{"stretch-02", v1::STRETCH_02}, {"verdict", v1::VERDICT}, {"optistruct", v1::OPTISTRUCT}},
+        [&a](v1::QualityProfile profile) { a.profile = profile; },
+        "stretch-02|verdict|optistruct: count the faces that pass, are warned of and fail by these limits. Default: none")
+        ->type_name("P");
     verb.add_option("--error", a.error,
                     "With --against: how close the bounds of the distances are to be; length > 0. Default 2 % of them or 1e-5 of "
                     "the diagonal, whichever is more")

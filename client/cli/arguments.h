@@ -31,6 +31,7 @@ struct Arguments {
     ControlOptions control;
     std::string against;          ///< quality: the mesh to measure the distance to; empty: none
     std::optional<double> error;  ///< quality against: most error of the distances; empty: the default
+    v1::QualityProfile profile = v1::QUALITY_PROFILE_UNSPECIFIED;  ///< quality: whose limits to check
     std::string server;
     std::string session;
     std::string representation;

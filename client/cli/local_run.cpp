@@ -96,8 +96,10 @@ Expected<Outcome> run_control(const Arguments& a, ProgressBar& progress, const s
     return run_method(a, a.control, method, progress, stop);
 }
 
-void add_worst_faces(const TriangleMesh& mesh, v1::Quality& quality) {
+void add_worst_faces(const TriangleMesh& mesh, v1::QualityProfile asked, v1::Quality& quality) {
     quality = wire::to_proto(measure_quality(mesh), worst_faces(mesh, kWorstFaces));
+    const Expected<std::optional<QualityProfile>> profile = wire::from_proto(asked);
+    if (profile && *profile) *quality.mutable_profile() = wire::to_proto(check_profile(mesh, **profile, kWorstFaces));
 }
 
 Expected<Outcome> describe_mesh(const Arguments& a) {
@@ -105,7 +107,7 @@ Expected<Outcome> describe_mesh(const Arguments& a) {
     Expected<Source> read = read_source(a.input, a);
     if (!read) return read.error();
     v1::MeshSummary summary = wire::to_proto(read->report);
-    if (a.verb == Verb::kQuality) add_worst_faces(read->mesh, *summary.mutable_quality());
+    if (a.verb == Verb::kQuality) add_worst_faces(read->mesh, a.profile, *summary.mutable_quality());
     return Outcome{std::move(summary), std::move(read->mesh), {}};
 }
 
@@ -124,7 +126,7 @@ Expected<Outcome> compare_meshes(const Arguments& a, ProgressBar& progress, cons
 Expected<Outcome> describe_representation(const Arguments& a) {
     Expected<Outcome> outcome = load_representation(a.input, a.faces);
     if (!outcome || a.verb != Verb::kQuality) return outcome;
-    add_worst_faces(*outcome->mesh, *std::get<v1::Representation>(outcome->document).mutable_quality());
+    add_worst_faces(*outcome->mesh, a.profile, *std::get<v1::Representation>(outcome->document).mutable_quality());
     return outcome;
 }
 

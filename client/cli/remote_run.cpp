@@ -145,6 +145,7 @@ private:
         request.set_representation(arguments_.representation);
         request.set_faces(arguments_.faces.value_or(0));
         request.set_worst(kWorstFaces);
+        request.set_profile(arguments_.profile);
         return client_.get_quality(request, call_);
     }
 

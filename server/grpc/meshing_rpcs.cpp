@@ -58,11 +58,14 @@ Status get_quality(service::MeshingService& service, const v1::GetQualityRequest
         return Error{Cause::kInvalidOption,
                      "worst is " + std::to_string(worst) + "; accepted are 0 to " + std::to_string(kMostWorst), "worst"};
     }
+    const Expected<std::optional<QualityProfile>> profile = wire::from_proto(request.profile());
+    if (!profile) return profile.error();
     const Expected<service::SessionSnapshot> session = service.snapshot(request.session());
     if (!session) return session.error();
     const Expected<service::PickedMesh> picked = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
     if (!picked) return picked.error();
     response = wire::to_proto(picked->quality(), worst_faces(*picked->mesh(), worst));
+    if (*profile) *response.mutable_profile() = wire::to_proto(check_profile(*picked->mesh(), **profile, worst));
     return Done{};
 }
 

@@ -26,6 +26,7 @@
 #include "vsplit/mrr/records.h"
 #include "vsplit/quality/crease_deviation.h"
 #include "vsplit/quality/deviation.h"
+#include "vsplit/quality/element_quality.h"
 #include "vsplit/quality/mesh_quality.h"
 #include "vsplit/quality/self_intersections.h"
 #include "vsplit/quality/slivers.h"
