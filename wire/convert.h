@@ -10,8 +10,8 @@
 #include "vsplit/method/method_options.h"
 #include "vsplit/method/method_result.h"
 #include "vsplit/mrr/record_block.h"
-#include "vsplit/quality/mesh_quality.h"
 #include "vsplit/quality/element_quality.h"
+#include "vsplit/quality/mesh_quality.h"
 #include "vsplit/repair/repair_mesh.h"
 #include "vsplit/v1/meshing.pb.h"
 

@@ -272,6 +272,18 @@ TEST_F(CommandLineTest, RepairMendsAndTells) {
     EXPECT_NE(run({"info", path, "--repair", "none"}).out.find("INCONSISTENT_EDGE"), std::string::npos);
 }
 
+TEST_F(CommandLineTest, QualityByAProfile) {
+    const std::string path = mesh_file("part.off", test::sliver_cylinder(40, 10));
+    const auto summary = json_of<v1::MeshSummary>(run({"quality", path, "--profile", "verdict", "--json"}));
+    const v1::ProfileReport& report = summary.quality().profile();
+    EXPECT_EQ(report.profile(), v1::VERDICT);
+    EXPECT_EQ(report.passed() + report.warned() + report.failed(), 156U);
+    EXPECT_GE(report.failed(), 80U);
+    EXPECT_NE(run({"quality", path, "--profile", "optistruct"}).out.find("by OPTISTRUCT: "), std::string::npos);
+    EXPECT_NE(run({"quality", path, "--profile", "none"}).err.find("accepted is one of optistruct, stretch-02, verdict"),
+              std::string::npos);
+}
+
 TEST_F(CommandLineTest, WeldClosesSmallGaps) {
     TriangleMesh gapped = test::cube();
     gapped.positions.push_back(gapped.positions[gapped.faces[0][0]] + Vec3(1e-6, 0, 0));

@@ -52,16 +52,14 @@ using Q = ElementQuality;
 constexpr std::array kStretch02{Criterion{"stretch", &Q::stretch, kStretchFloor, 0.4, kInfinity, kInfinity}};
 
 // Verdict has acceptable ranges only, so no warnings.
-constexpr std::array kVerdict{Criterion{"aspect_ratio", &Q::aspect_ratio, 0, 0, 1.3, 1.3},
-                              Criterion{"radius_ratio", &Q::radius_ratio, 0, 0, 3, 3},
-                              Criterion{"min_angle", &Q::min_angle, 30, 30, kInfinity, kInfinity},
-                              Criterion{"max_angle", &Q::max_angle, 0, 0, 90, 90},
-                              Criterion{"scaled_jacobian", &Q::scaled_jacobian, 0.5, 0.5, kInfinity, kInfinity}};
+constexpr std::array kVerdict{
+    Criterion{"aspect_ratio", &Q::aspect_ratio, 0, 0, 1.3, 1.3}, Criterion{"radius_ratio", &Q::radius_ratio, 0, 0, 3, 3},
+    Criterion{"min_angle", &Q::min_angle, 30, 30, kInfinity, kInfinity}, Criterion{"max_angle", &Q::max_angle, 0, 0, 90, 90},
+    Criterion{"scaled_jacobian", &Q::scaled_jacobian, 0.5, 0.5, kInfinity, kInfinity}};
 
-constexpr std::array kOptistruct{Criterion{"edge_ratio", &Q::edge_ratio, 0, 0, 50, 500},
-                                 Criterion{"skew", &Q::skew, 0, 0, 75, 85},
-                                 Criterion{"min_angle", &Q::min_angle, 3, 15, kInfinity, kInfinity},
-                                 Criterion{"max_angle", &Q::max_angle, 0, 0, 165, 177}};
+constexpr std::array kOptistruct{
+    Criterion{"edge_ratio", &Q::edge_ratio, 0, 0, 50, 500}, Criterion{"skew", &Q::skew, 0, 0, 75, 85},
+    Criterion{"min_angle", &Q::min_angle, 3, 15, kInfinity, kInfinity}, Criterion{"max_angle", &Q::max_angle, 0, 0, 165, 177}};
 
 std::span<const Criterion> criteria_of(QualityProfile profile) {
     switch (profile) {

@@ -13,13 +13,13 @@ namespace vsplit {
 /// A triangle's shape in the figures that finite-element programs know. Angles in degrees. A triangle without area has infinite
 /// ratios.
 struct ElementQuality {
-    double stretch = 0;          ///< [Date05] Eq. 6; 1 equilateral
-    double min_angle = 0;        ///< 60 equilateral
-    double max_angle = 0;        ///< 60 equilateral
-    double edge_ratio = 0;       ///< longest over shortest edge; 1 equilateral
-    double aspect_ratio = 0;     ///< Verdict's: longest edge over 2 sqrt(3) inradii; 1 equilateral
-    double radius_ratio = 0;     ///< circumradius over 2 inradii; 1 equilateral
-    double skew = 0;             ///< OptiStruct's: 90 less the smallest angle between a median and the line of the middles beside it
+    double stretch = 0;       ///< [Date05] Eq. 6; 1 equilateral
+    double min_angle = 0;     ///< 60 equilateral
+    double max_angle = 0;     ///< 60 equilateral
+    double edge_ratio = 0;    ///< longest over shortest edge; 1 equilateral
+    double aspect_ratio = 0;  ///< Verdict's: longest edge over 2 sqrt(3) inradii; 1 equilateral
+    double radius_ratio = 0;  ///< circumradius over 2 inradii; 1 equilateral
+    double skew = 0;          ///< OptiStruct's: 90 less the smallest angle between a median and the line of the middles beside it
     double scaled_jacobian = 0;  ///< Verdict's: least sine of an angle times 2 / sqrt(3); 1 equilateral
 };
 
@@ -41,10 +41,10 @@ enum class QualityProfile {
 
 /// How a mesh does by one figure of a profile.
 struct CriterionReport {
-    std::string name;             ///< as in ElementQuality, e.g. "min_angle"
-    double worst = 0;             ///< of all faces
+    std::string name;  ///< as in ElementQuality, e.g. "min_angle"
+    double worst = 0;  ///< of all faces
     std::uint32_t worst_face = 0;
-    std::uint32_t warned = 0;     ///< faces beyond the warning limit and within that of failure
+    std::uint32_t warned = 0;  ///< faces beyond the warning limit and within that of failure
     std::uint32_t failed = 0;
 };
 
