@@ -255,7 +255,7 @@ TEST_F(CommandLineTest, FormatOverridesTheExtension) {
 }
 
 TEST_F(CommandLineTest, RepairMendsAndTells) {
-    TriangleMesh broken = test::torus(40, 20);
+    TriangleMesh broken = test::torus(80, 40);
     std::swap(broken.faces[7][0], broken.faces[7][1]);
     broken.faces.pop_back();
     const std::string path = mesh_file("broken.ply", broken);

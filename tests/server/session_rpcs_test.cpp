@@ -71,7 +71,7 @@ TEST(CreateSessionTest, AnOpenMeshIsAcceptedAndItsSummarySaysSo) {
 
 TEST(CreateSessionTest, RepairsWhatItIsAskedTo) {
     TestServer server;
-    TriangleMesh open = test::icosphere(3);
+    TriangleMesh open = test::icosphere(4);
     open.faces.pop_back();
     v1::CreateSessionRequest request;
     request.set_mesh(file_of(open));

@@ -158,7 +158,7 @@ TEST_F(UploadRpcTest, RefusesAnEmptyStreamAndAnUnknownSession) {
 }
 
 TEST_F(UploadRpcTest, RepairsWhatItIsAskedTo) {
-    TriangleMesh open = test::icosphere(3);
+    TriangleMesh open = test::icosphere(4);
     open.faces.pop_back();
     v1::UploadMeshRequest first = first_part(file_of(open));
     first.set_repair(v1::FULL);
