@@ -1,5 +1,6 @@
 #include "wire/convert.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -108,6 +109,8 @@ v1::Finding to_proto(const Finding& finding) {
     proto.set_count(finding.count);
     proto.set_message(sentence(finding.message));
     add_elements(finding.elements, *proto.mutable_elements());
+    for (std::size_t i = 0; i < std::min(finding.places.size(), Finding::kExamples); ++i)
+        *proto.add_places() = to_proto(finding.places[i]);
     return proto;
 }
 
@@ -298,6 +301,24 @@ v1::MeshFormat to_proto(std::optional<MeshFormat> format) {
             return v1::PLY_ASCII;
         case MeshFormat::kOff:
             return v1::OFF;
+        case MeshFormat::kMsh:
+            return v1::MSH;
+        case MeshFormat::kMshAscii:
+            return v1::MSH_ASCII;
+        case MeshFormat::kMsh2:
+            return v1::MSH2;
+        case MeshFormat::kMsh2Ascii:
+            return v1::MSH2_ASCII;
+        case MeshFormat::kInp:
+            return v1::INP;
+        case MeshFormat::kBdf:
+            return v1::BDF;
+        case MeshFormat::kVtk:
+            return v1::VTK;
+        case MeshFormat::kVtkAscii:
+            return v1::VTK_ASCII;
+        case MeshFormat::kVtu:
+            return v1::VTU;
     }
     return v1::MESH_FORMAT_UNSPECIFIED;
 }
@@ -318,23 +339,87 @@ Expected<std::optional<MeshFormat>> from_proto(v1::MeshFormat format) {
             return std::optional(MeshFormat::kPlyAscii);
         case v1::OFF:
             return std::optional(MeshFormat::kOff);
+        case v1::MSH:
+            return std::optional(MeshFormat::kMsh);
+        case v1::MSH_ASCII:
+            return std::optional(MeshFormat::kMshAscii);
+        case v1::MSH2:
+            return std::optional(MeshFormat::kMsh2);
+        case v1::MSH2_ASCII:
+            return std::optional(MeshFormat::kMsh2Ascii);
+        case v1::INP:
+            return std::optional(MeshFormat::kInp);
+        case v1::BDF:
+            return std::optional(MeshFormat::kBdf);
+        case v1::VTK:
+            return std::optional(MeshFormat::kVtk);
+        case v1::VTK_ASCII:
+            return std::optional(MeshFormat::kVtkAscii);
+        case v1::VTU:
+            return std::optional(MeshFormat::kVtu);
         default:
             return unknown_number("format", format,
-                                  "STL, STL_ASCII, OBJ, PLY, PLY_ASCII, OFF, or none to tell it from the bytes");
+                                  "STL, STL_ASCII, OBJ, PLY, PLY_ASCII, OFF, MSH, MSH_ASCII, MSH2, MSH2_ASCII, INP, BDF, VTK, "
+                                  "VTK_ASCII, VTU, or none "
+                                  "to tell it from the bytes");
     }
 }
 
-Status check_repair(v1::Repair repair) {
+v1::ProfileReport to_proto(const ProfileReport& report) {
+    v1::ProfileReport proto;
+    switch (report.profile) {
+        case QualityProfile::kStretch02:
+            proto.set_profile(v1::STRETCH_02);
+            break;
+        case QualityProfile::kVerdict:
+            proto.set_profile(v1::VERDICT);
+            break;
+        case QualityProfile::kOptistruct:
+            proto.set_profile(v1::OPTISTRUCT);
+            break;
+    }
+    proto.set_passed(report.passed);
+    proto.set_warned(report.warned);
+    proto.set_failed(report.failed);
+    for (const CriterionReport& criterion : report.criteria) {
+        v1::CriterionReport& added = *proto.add_criteria();
+        added.set_name(criterion.name);
+        added.set_worst(criterion.worst);
+        added.set_worst_face(criterion.worst_face);
+        added.set_warned(criterion.warned);
+        added.set_failed(criterion.failed);
+    }
+    add_elements(report.worst, *proto.mutable_worst_faces());
+    return proto;
+}
+
+Expected<std::optional<QualityProfile>> from_proto(v1::QualityProfile profile) {
+    switch (profile) {
+        case v1::QUALITY_PROFILE_UNSPECIFIED:
+            return std::optional<QualityProfile>();
+        case v1::STRETCH_02:
+            return std::optional(QualityProfile::kStretch02);
+        case v1::VERDICT:
+            return std::optional(QualityProfile::kVerdict);
+        case v1::OPTISTRUCT:
+            return std::optional(QualityProfile::kOptistruct);
+        default:
+            return unknown_number("profile", profile, "STRETCH_02, VERDICT, OPTISTRUCT, or none");
+    }
+}
+
+Expected<std::optional<RepairMode>> from_proto(v1::Repair repair) {
     switch (repair) {
         case v1::REPAIR_UNSPECIFIED:
+            return std::optional<RepairMode>();
         case v1::NONE:
-            return Done{};
+            return std::optional(RepairMode::kNone);
         case v1::SAFE:
+            return std::optional(RepairMode::kSafe);
         case v1::FULL:
-            return Error{Cause::kUnsupported,
-                         "repair " + v1::Repair_Name(repair) + " is not offered by this version; accepted is NONE", "repair"};
+            return std::optional(RepairMode::kFull);
         default:
-            return unknown_number("repair", repair, "NONE");
+            return unknown_number("repair", repair, "NONE, SAFE or FULL");
     }
 }
 

@@ -10,7 +10,9 @@
 #include "vsplit/method/method_options.h"
 #include "vsplit/method/method_result.h"
 #include "vsplit/mrr/record_block.h"
+#include "vsplit/quality/element_quality.h"
 #include "vsplit/quality/mesh_quality.h"
+#include "vsplit/repair/repair_mesh.h"
 #include "vsplit/v1/meshing.pb.h"
 
 /// Core's values as messages (to_proto) and back (from_proto). Every function is O(size of its argument).
@@ -68,8 +70,11 @@ namespace vsplit::wire {
 /// MESH_FORMAT_UNSPECIFIED becomes empty. \return INVALID_OPTION (field "format") for a number that is no format.
 [[nodiscard]] Expected<std::optional<MeshFormat>> from_proto(v1::MeshFormat format);
 
-/// What this version makes of a repair: INVALID_OPTION for a number that is none, UNSUPPORTED for SAFE and FULL.
-[[nodiscard]] Status check_repair(v1::Repair repair);
+[[nodiscard]] v1::ProfileReport to_proto(const ProfileReport& report);
+/// Empty where none is named. \return INVALID_OPTION for a number that names none.
+[[nodiscard]] Expected<std::optional<QualityProfile>> from_proto(v1::QualityProfile profile);
+/// Empty where none is named. \return INVALID_OPTION for a number that names none.
+[[nodiscard]] Expected<std::optional<RepairMode>> from_proto(v1::Repair repair);
 
 [[nodiscard]] v1::RecordEncoding to_proto(RecordEncoding encoding);
 

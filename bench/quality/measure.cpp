@@ -3,14 +3,21 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "quality/creases.h"
 #include "quality/distance.h"
-#include "quality/self_intersections.h"
+#include "vsplit/quality/self_intersections.h"
 
 namespace vsplit::bench {
 namespace {
+
+/// The largest number where there are too many pairs to look at.
+std::size_t count_self_intersections(const TriangleMesh& mesh) {
+    const auto pairs = find_self_intersections(mesh);
+    return pairs ? pairs->size() : std::numeric_limits<std::size_t>::max();
+}
 
 /// Degrees between normals of cosine -0.9.
 constexpr double kFoldAngle = 154.1581;

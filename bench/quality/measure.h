@@ -21,7 +21,7 @@ struct Figures {
     std::optional<double> crease_lost;   ///< % of the source's creases further than `near` from any of the result
     std::optional<double> crease_gone;   ///< the same, from any edge of the result of half the angle: not even a bend is left
     std::size_t folds = 0;               ///< edges whose faces look opposite ways (cosine < -0.9), none such near in the source
-    std::size_t self_intersections = 0;  ///< see count_self_intersections
+    std::size_t self_intersections = 0;  ///< see find_self_intersections
     std::size_t source_self_intersections = 0;  ///< of the source
     std::size_t border_edges = 0;               ///< edges without exactly two faces
 };

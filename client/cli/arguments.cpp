@@ -65,18 +65,23 @@ void add_input(CLI::App& verb, Arguments& a, const char* what) {
     add_choice<v1::Repair>(
         verb, "--repair", {{"none", v1::NONE}, {"safe", v1::SAFE}, {"full", v1::FULL}},
         [&a](v1::Repair repair) { a.repair = repair; },
-        "How to mend a broken mesh: none|safe|full. Default none; this version offers no other")
+        "Mend a broken mesh: none says what stands in the way; safe cuts apart and turns faces; full stitches cracks and fills "
+        "small holes too. Default: nothing is mended")
         ->type_name("R");
 }
 
 void add_output(CLI::App& verb, Arguments& a) {
-    verb.add_option("-o,--output", a.outputs,
-                    "File to write, its format by extension: .stl .obj .ply .off .vsplit; may be repeated")
+    verb.add_option(
+            "-o,--output", a.outputs,
+            "File to write, its format by extension: .stl .obj .ply .off .msh .inp .bdf .vtk .vtu .vsplit; may be repeated")
         ->type_name("OUT")
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);
-    verb.add_option("--format", a.format, "Format of OUT instead: stl, stl-ascii, obj, ply, ply-ascii, off or vsplit")
+    verb.add_option("--format", a.format,
+                    "Format of OUT instead: stl, stl-ascii, obj, ply, ply-ascii, off, msh, msh-ascii, msh2, msh2-ascii, inp, "
+                    "bdf, vtk, vtk-ascii, "
+                    "vtu or vsplit")
         ->type_name("F");
     verb.add_flag("--json", a.json, "Print one JSON document on the standard output");
     verb.add_flag("--no-progress", a.no_progress, "No progress bar; there is none anyway where stderr is no terminal");
@@ -232,17 +237,22 @@ void add_method(CLI::App& verb, Arguments& a, Options& o, const char* default_fa
 
 void add_info(CLI::App& app, Arguments& a) {
     CLI::App& verb = *app.add_subcommand("info", "Counts, topology and shape of a mesh, or what a .vsplit file holds");
-    add_input(verb, a, "Mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
+    add_input(verb, a, "Mesh (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or .vsplit file");
     add_resolution(verb, a, "Resolution of a representation to describe. Default: the one it was made for");
     verb.footer("Example:\n  vsplit info part.stl --json");
 }
 
 void add_quality(CLI::App& app, Arguments& a) {
     CLI::App& verb = *app.add_subcommand("quality", "As info, with the histogram of stretch and the worst faces");
-    add_input(verb, a, "Mesh (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
+    add_input(verb, a, "Mesh (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or .vsplit file");
     verb.add_option("--against", a.against,
                     "Measure the distance to this mesh or .vsplit file instead, both ways and between creases; not with a server")
         ->type_name("FILE");
+    add_choice<v1::QualityProfile>(
+        verb, "--profile", {{"stretch-02", v1::STRETCH_02}, {"verdict", v1::VERDICT}, {"optistruct", v1::OPTISTRUCT}},
+        [&a](v1::QualityProfile profile) { a.profile = profile; },
+        "stretch-02|verdict|optistruct: count the faces that pass, are warned of and fail by these limits. Default: none")
+        ->type_name("P");
     verb.add_option("--error", a.error,
                     "With --against: how close the bounds of the distances are to be; length > 0. Default 2 % of them or 1e-5 of "
                     "the diagonal, whichever is more")
@@ -256,7 +266,9 @@ void add_quality(CLI::App& app, Arguments& a) {
 
 void add_improve(CLI::App& app, Arguments& a) {
     CLI::App& verb = *app.add_subcommand("improve", "Improve the shape of the faces within a tolerance of the surface");
-    add_input(verb, a, "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
+    add_input(verb, a,
+              "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or "
+              ".vsplit file");
     verb.add_option("--subdivide", a.improve.subdivision_size,
                     "Split edges until none is longer (the paper's sigma_SZ); length > 0. Default the mean edge of --faces, or "
                     "1.5 % of the "
@@ -279,7 +291,9 @@ void add_improve(CLI::App& app, Arguments& a) {
 void add_control(CLI::App& app, Arguments& a) {
     CLI::App& verb =
         *app.add_subcommand("control", "Bring stretch, size and valence within bounds; for meshes that were improved");
-    add_input(verb, a, "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF; told from its bytes) or .vsplit file");
+    add_input(verb, a,
+              "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or "
+              ".vsplit file");
     verb.add_option("--subdivisions", a.control.subdivisions, "One-to-four subdivisions first; 0 to 12. Default 1")
         ->check(whole_number())
         ->type_name("n");

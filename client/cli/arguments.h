@@ -23,7 +23,7 @@ struct Arguments {
     bool no_progress = false;
     unsigned threads = 0;  ///< 0: all cores
     double weld = 0;
-    v1::Repair repair = v1::NONE;
+    v1::Repair repair = v1::REPAIR_UNSPECIFIED;
     std::optional<std::uint32_t> faces;         ///< info, quality, resolution: the resolution to show
     std::optional<std::uint32_t> source_faces;  ///< improve, control: resolution of the representation to work on
     std::string size_field;                     ///< improve, control: file of sizes, read by read_size_field_into
@@ -31,6 +31,7 @@ struct Arguments {
     ControlOptions control;
     std::string against;          ///< quality: the mesh to measure the distance to; empty: none
     std::optional<double> error;  ///< quality against: most error of the distances; empty: the default
+    v1::QualityProfile profile = v1::QUALITY_PROFILE_UNSPECIFIED;  ///< quality: whose limits to check
     std::string server;
     std::string session;
     std::string representation;

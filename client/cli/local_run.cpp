@@ -12,6 +12,7 @@
 #include "vsplit/method/improve.h"
 #include "vsplit/mrr/mrr_file.h"
 #include "vsplit/mrr/progressive_mesh.h"
+#include "vsplit/repair/repair_mesh.h"
 #include "wire/convert.h"
 #include "wire/json.h"
 #include "wire/representation.h"
@@ -32,19 +33,33 @@ Status check_arguments(const Arguments& a) {
     if (a.input.empty() || a.input == "-") return Error{Cause::kInvalidOption, "a file is needed to work on", "input"};
     if (a.source_faces && !is_representation_file(a.input)) return one_resolution("source_faces");
     if (!a.against.empty() && a.faces && !is_representation_file(a.input)) return one_resolution("faces");
-    return wire::check_repair(a.repair);
+    return Done{};
 }
 
-Expected<ReadResult> read_mesh_input(const Arguments& a) { return read_mesh_file(a.input, {.weld = a.weld}); }
+/// A mesh file as it was asked to be welded and repaired.
+struct Source {
+    TriangleMesh mesh;
+    MeshReport report;
+};
+
+Expected<Source> read_source(const std::string& path, const Arguments& a) {
+    Expected<ReadResult> read = read_mesh_file(path, {.weld = a.weld});
+    if (!read) return read.error();
+    const Expected<std::optional<RepairMode>> repair = wire::from_proto(a.repair);
+    if (!repair) return repair.error();
+    Expected<MeshReport> report = inspect_source(read->mesh, read->weld, *repair);
+    if (!report) return report.error();
+    return Source{std::move(read->mesh), *std::move(report)};
+}
 
 /// A mesh, or a .vsplit file at a resolution.
-Expected<TriangleMesh> read_any(const std::string& path, std::optional<std::uint32_t> faces, double weld) {
+Expected<TriangleMesh> read_any(const std::string& path, std::optional<std::uint32_t> faces, const Arguments& a) {
     if (is_representation_file(path)) {
         Expected<Outcome> stored = load_representation(path, faces);
         if (!stored) return stored.error();
         return *std::move(stored->mesh);
     }
-    Expected<ReadResult> read = read_mesh_file(path, {.weld = weld});
+    Expected<Source> read = read_source(path, a);
     if (!read) return read.error();
     return std::move(read->mesh);
 }
@@ -55,7 +70,7 @@ template <class Options>
 Expected<Outcome> run_method(const Arguments& a, const Options& options, const MethodFunction& method, ProgressBar& progress,
                              const std::stop_token& stop) {
     if (Status valid = check_options(options); !valid) return valid.error();
-    const Expected<TriangleMesh> source = read_any(a.input, a.source_faces, a.weld);
+    const Expected<TriangleMesh> source = read_any(a.input, a.source_faces, a);
     if (!source) return source.error();
     ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
     const StopCallback on_stop(stop, [&context] { context.cancel(); });
@@ -81,23 +96,25 @@ Expected<Outcome> run_control(const Arguments& a, ProgressBar& progress, const s
     return run_method(a, a.control, method, progress, stop);
 }
 
-void add_worst_faces(const TriangleMesh& mesh, v1::Quality& quality) {
+void add_worst_faces(const TriangleMesh& mesh, v1::QualityProfile asked, v1::Quality& quality) {
     quality = wire::to_proto(measure_quality(mesh), worst_faces(mesh, kWorstFaces));
+    const Expected<std::optional<QualityProfile>> profile = wire::from_proto(asked);
+    if (profile && *profile) *quality.mutable_profile() = wire::to_proto(check_profile(mesh, **profile, kWorstFaces));
 }
 
 Expected<Outcome> describe_mesh(const Arguments& a) {
     if (a.faces) return one_resolution("faces");
-    Expected<ReadResult> read = read_mesh_input(a);
+    Expected<Source> read = read_source(a.input, a);
     if (!read) return read.error();
-    v1::MeshSummary summary = wire::to_proto(inspect(read->mesh, read->weld));
-    if (a.verb == Verb::kQuality) add_worst_faces(read->mesh, *summary.mutable_quality());
+    v1::MeshSummary summary = wire::to_proto(read->report);
+    if (a.verb == Verb::kQuality) add_worst_faces(read->mesh, a.profile, *summary.mutable_quality());
     return Outcome{std::move(summary), std::move(read->mesh), {}};
 }
 
 Expected<Outcome> compare_meshes(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
-    Expected<TriangleMesh> mesh = read_any(a.input, a.faces, a.weld);
+    Expected<TriangleMesh> mesh = read_any(a.input, a.faces, a);
     if (!mesh) return mesh.error();
-    const Expected<TriangleMesh> against = read_any(a.against, {}, a.weld);
+    const Expected<TriangleMesh> against = read_any(a.against, {}, a);
     if (!against) return against.error();
     ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
     const StopCallback on_stop(stop, [&context] { context.cancel(); });
@@ -109,7 +126,7 @@ Expected<Outcome> compare_meshes(const Arguments& a, ProgressBar& progress, cons
 Expected<Outcome> describe_representation(const Arguments& a) {
     Expected<Outcome> outcome = load_representation(a.input, a.faces);
     if (!outcome || a.verb != Verb::kQuality) return outcome;
-    add_worst_faces(*outcome->mesh, *std::get<v1::Representation>(outcome->document).mutable_quality());
+    add_worst_faces(*outcome->mesh, a.profile, *std::get<v1::Representation>(outcome->document).mutable_quality());
     return outcome;
 }
 

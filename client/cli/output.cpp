@@ -43,7 +43,7 @@ Status write_representation(const Outcome& outcome, const std::string& path) {
         return Error{Cause::kInvalidOption,
                      "'" + path +
                          "' would hold a representation, and there is only a mesh; accepted are .stl, "
-                         ".obj, .ply and .off, or `improve` or `control` the mesh first",
+                         ".obj, .ply, .off, .msh, .inp, .bdf, .vtk and .vtu, or `improve` or `control` the mesh first",
                      "output"};
     }
     // The same input and options give the same file: it holds nothing of the run that made it.

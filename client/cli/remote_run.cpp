@@ -40,7 +40,7 @@ Status check_arguments(const Arguments& a) {
     if (a.source_faces && a.representation.empty() && !is_representation_file(a.input)) {
         return invalid("a mesh has one resolution; accepted with --representation or a .vsplit file", "source_faces");
     }
-    return wire::check_repair(a.repair);
+    return Done{};
 }
 
 /// One command on one session.
@@ -145,6 +145,7 @@ private:
         request.set_representation(arguments_.representation);
         request.set_faces(arguments_.faces.value_or(0));
         request.set_worst(kWorstFaces);
+        request.set_profile(arguments_.profile);
         return client_.get_quality(request, call_);
     }
 

@@ -65,7 +65,26 @@ std::string worst_faces(const v1::Quality& q) {
     return text;
 }
 
-std::string details(const v1::Quality& q, bool detailed) { return detailed ? histogram(q) + worst_faces(q) : std::string(); }
+/// How the mesh does by a profile: a line for each of its figures, and the faces to look at.
+std::string profile_lines(const v1::ProfileReport& p) {
+    std::string text = "\nby " + v1::QualityProfile_Name(p.profile()) + ": " + counted(p.passed(), "face passes", "faces pass") +
+                       ", " + grouped(p.warned()) + " with a warning, " + grouped(p.failed()) + " fail\n";
+    text +=
+        left("figure", kNameWidth) + right("worst", 12) + right("face", 12) + right("warned", 12) + right("failed", 12) + "\n";
+    for (const v1::CriterionReport& c : p.criteria()) {
+        text += left(c.name(), kNameWidth) + right(figure(c.worst()), 12) + right(std::to_string(c.worst_face()), 12) +
+                right(grouped(c.warned()), 12) + right(grouped(c.failed()), 12) + "\n";
+    }
+    if (p.worst_faces().empty()) return text;
+    text += "worst faces:";
+    for (const std::uint32_t face : p.worst_faces()) text += " " + std::to_string(face);
+    return text + "\n";
+}
+
+std::string details(const v1::Quality& q, bool detailed) {
+    if (!detailed) return {};
+    return histogram(q) + worst_faces(q) + (q.has_profile() ? profile_lines(q.profile()) : std::string());
+}
 
 std::string closed_or_why(const v1::MeshSummary& m) {
     if (m.closed()) return "yes";

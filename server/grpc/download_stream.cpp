@@ -29,16 +29,26 @@ const char* content_type(MeshFormat format) {
             return "model/obj";
         case MeshFormat::kPlyAscii:
         case MeshFormat::kOff:
+        case MeshFormat::kMshAscii:
+        case MeshFormat::kMsh2Ascii:
+        case MeshFormat::kInp:
+        case MeshFormat::kBdf:
+        case MeshFormat::kVtkAscii:
             return "text/plain";
         case MeshFormat::kPlyBinary:
+        case MeshFormat::kMsh:
+        case MeshFormat::kMsh2:
+        case MeshFormat::kVtk:
+        case MeshFormat::kVtu:
             break;
     }
-    return "application/octet-stream";  // PLY has no registered type
+    return "application/octet-stream";  // none of them has a registered type
 }
 
-// E.g. "r1-5000.stl", "mesh-1234.ply". A format's name is its extension, with "-ascii" after it where there are two kinds.
+// E.g. "r1-5000.stl", "mesh-1234.ply". A format's name is its extension, with "-ascii" after it where there are two kinds, and a
+// 2 where there are two versions.
 std::string file_name(const service::MeshRef& mesh, MeshFormat format) {
-    const std::string_view name = format_name(format);
+    const std::string_view name = format == MeshFormat::kMsh2 || format == MeshFormat::kMsh2Ascii ? "msh" : format_name(format);
     return (mesh.representation.empty() ? std::string("mesh") : mesh.representation) + '-' + std::to_string(mesh.faces) + '.' +
            std::string(name.substr(0, name.find('-')));
 }

@@ -8,13 +8,16 @@
 #include "wire/base_mesh.h"
 #include "wire/convert.h"
 #include "wire/error_table.h"
+#include "wire/regions.h"
 
 namespace vsplit::rpc {
 
 LevelParts::LevelParts(service::MeshingService& service, service::ResolutionPlan plan, const EncodingChoice& choice, Wake wake)
     : service_(&service), plan_(std::move(plan)), choice_(choice), wake_(std::move(wake)), record_(plan_.first_record) {
+    if (!plan_.with_base) return;
+    region_parts_ = wire::region_parts(plan_.representation->mrr());
     const bool plain = choice_.encoding == RecordEncoding::kFloat64;
-    if (plain && plan_.with_base) base_parts_ = wire::base_mesh_parts(plan_.representation->mrr().base);
+    if (plain) base_parts_ = wire::base_mesh_parts(plan_.representation->mrr().base);
 }
 
 Expected<LevelParts::Step> LevelParts::next(v1::ProgressiveEvent& event) {
@@ -25,6 +28,7 @@ Expected<LevelParts::Step> LevelParts::next(v1::ProgressiveEvent& event) {
         return Step::kMessage;
     }
     const bool ready = made_.encoded != nullptr;
+    if (ready && next_regions(event)) return Step::kMessage;
     if (ready && record_ == plan_.last_record) return Step::kEnd;
     if (ready && !made_.block) made_.block = made_.encoded->find(record_, plan_.last_record);
     if (!made_.block) {
@@ -78,12 +82,20 @@ Status LevelParts::begin_errand() {
     return Error{Cause::kUnavailable, "the server is shutting down", ""};
 }
 
+/// After the base mesh and before records.
+bool LevelParts::next_regions(v1::ProgressiveEvent& event) {
+    if (region_part_ == region_parts_) return false;
+    *event.mutable_regions() = wire::region_part(plan_.representation->mrr(), region_part_++);
+    return true;
+}
+
 bool LevelParts::next_plain(v1::ProgressiveEvent& event) {
     const MultiresMesh& mrr = plan_.representation->mrr();
     if (base_part_ < base_parts_) {
         *event.mutable_base_mesh() = wire::base_mesh_part(mrr.base, base_part_++, mrr.ghosts);
         return true;
     }
+    if (next_regions(event)) return true;
     if (record_ == plan_.last_record) return false;
     // No record of any encoding takes less than a byte of its block.
     const std::size_t most = std::min(kMaxBlockBytes, plan_.last_record - record_);

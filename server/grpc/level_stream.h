@@ -35,6 +35,7 @@ private:
     };
     using MadeBox = Mailbox<Expected<Made>>;
 
+    [[nodiscard]] bool next_regions(v1::ProgressiveEvent& event);
     [[nodiscard]] bool next_plain(v1::ProgressiveEvent& event);
     [[nodiscard]] Status take_made();
     [[nodiscard]] Status begin_errand();
@@ -46,6 +47,8 @@ private:
     Wake wake_;
     std::size_t base_part_ = 0;
     std::size_t base_parts_ = 0;
+    std::size_t region_part_ = 0;
+    std::size_t region_parts_ = 0;
     std::size_t record_ = 0;
     Made made_;
     bool waiting_ = false;

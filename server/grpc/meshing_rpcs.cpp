@@ -32,10 +32,12 @@ void finish(grpc::ServerUnaryReactor* reactor, const RpcWatch& watch, const std:
 Status create_session(service::MeshingService& service, const v1::CreateSessionRequest& request, v1::Session& response) {
     const Expected<std::optional<MeshFormat>> format = wire::from_proto(request.format());
     if (!format) return format.error();
-    if (Status repair = wire::check_repair(request.repair()); !repair) return repair;
+    const Expected<std::optional<RepairMode>> repair = wire::from_proto(request.repair());
+    if (!repair) return repair.error();
     const Expected<service::SessionSnapshot> created =
-        request.mesh().empty() ? service.create_session()
-                               : service.create_session(std::as_bytes(std::span(request.mesh())), {*format, request.weld()});
+        request.mesh().empty()
+            ? service.create_session()
+            : service.create_session(std::as_bytes(std::span(request.mesh())), {*format, request.weld(), *repair});
     if (!created) return created.error();
     response = to_proto(*created);
     return Done{};
@@ -56,11 +58,14 @@ Status get_quality(service::MeshingService& service, const v1::GetQualityRequest
         return Error{Cause::kInvalidOption,
                      "worst is " + std::to_string(worst) + "; accepted are 0 to " + std::to_string(kMostWorst), "worst"};
     }
+    const Expected<std::optional<QualityProfile>> profile = wire::from_proto(request.profile());
+    if (!profile) return profile.error();
     const Expected<service::SessionSnapshot> session = service.snapshot(request.session());
     if (!session) return session.error();
     const Expected<service::PickedMesh> picked = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
     if (!picked) return picked.error();
     response = wire::to_proto(picked->quality(), worst_faces(*picked->mesh(), worst));
+    if (*profile) *response.mutable_profile() = wire::to_proto(check_profile(*picked->mesh(), **profile, worst));
     return Done{};
 }
 

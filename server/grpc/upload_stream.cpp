@@ -19,8 +19,9 @@ Error shutting_down() { return {Cause::kUnavailable, "the server is shutting dow
 Expected<service::UploadSettings> settings_of(const v1::UploadMeshRequest& first) {
     const Expected<std::optional<MeshFormat>> format = wire::from_proto(first.format());
     if (!format) return format.error();
-    if (Status repair = wire::check_repair(first.repair()); !repair) return repair.error();
-    service::UploadSettings settings{{*format, first.weld()}, std::nullopt};
+    const Expected<std::optional<RepairMode>> repair = wire::from_proto(first.repair());
+    if (!repair) return repair.error();
+    service::UploadSettings settings{{*format, first.weld(), *repair}, std::nullopt};
     if (first.has_size()) settings.size = first.size();
     return settings;
 }

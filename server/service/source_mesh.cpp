@@ -20,9 +20,10 @@ Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byt
     return guarded([&]() -> Expected<std::shared_ptr<const SourceMesh>> {
         Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces});
         if (!read) return read.error();
-        MeshReport report = inspect(read->mesh, read->weld);
+        Expected<MeshReport> report = inspect_source(read->mesh, read->weld, settings.repair);
+        if (!report) return report.error();
         return std::make_shared<const SourceMesh>(
-            SourceMesh{std::make_shared<const TriangleMesh>(std::move(read->mesh)), std::move(report)});
+            SourceMesh{std::make_shared<const TriangleMesh>(std::move(read->mesh)), *std::move(report)});
     });
 }
 

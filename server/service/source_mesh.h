@@ -10,13 +10,15 @@
 #include "vsplit/io/mesh_format.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/mesh/triangle_mesh.h"
+#include "vsplit/repair/repair_mesh.h"
 
 namespace vsplit::service {
 
 /// How an uploaded file is to be read.
 struct MeshSettings {
-    std::optional<MeshFormat> format;  ///< told from the bytes when empty
-    double weld = 0;                   ///< length, model units; 0 merges exactly equal vertices
+    std::optional<MeshFormat> format;    ///< told from the bytes when empty
+    double weld = 0;                     ///< length, model units; 0 merges exactly equal vertices
+    std::optional<RepairMode> repair{};  ///< after the weld; none when empty
 };
 
 /// Whether `settings` can be obeyed, before any byte is there. \return INVALID_OPTION. O(1).
@@ -28,7 +30,7 @@ struct SourceMesh {
     MeshReport report;
 };
 
-/// Reads, welds and inspects. Heavy: for a worker, not for a thread that others wait for.
+/// Reads, welds, repairs and inspects. Heavy: for a worker, not for a thread that others wait for.
 /// \return what `read_mesh` returns; LIMIT_EXCEEDED names the server's limit.
 [[nodiscard]] Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byte> bytes,
                                                                       const MeshSettings& settings, const Limits& limits);

@@ -254,6 +254,36 @@ TEST_F(CommandLineTest, FormatOverridesTheExtension) {
     EXPECT_EQ(run({"info", cube, "-o", file("x.dat"), "--format", "docx"}).exit_status, 1);
 }
 
+TEST_F(CommandLineTest, RepairMendsAndTells) {
+    TriangleMesh broken = test::torus(80, 40);
+    std::swap(broken.faces[7][0], broken.faces[7][1]);
+    broken.faces.pop_back();
+    const std::string path = mesh_file("broken.ply", broken);
+    EXPECT_EQ(run({"improve", path}).exit_status, 1);
+    const auto mended = json_of<v1::MeshSummary>(run({"info", path, "--repair", "full", "--json"}));
+    EXPECT_TRUE(mended.closed());
+    ASSERT_EQ(mended.findings_size(), 2);
+    EXPECT_EQ(mended.findings(0).kind(), "TURNED_FACE");
+    EXPECT_EQ(mended.findings(0).elements(0), 7U);
+    EXPECT_EQ(mended.findings(1).kind(), "FILLED_HOLE");
+    const CommandResult improved = run({"improve", path, "--repair", "full", "--faces", "1000"});
+    EXPECT_EQ(improved.exit_status, 0) << improved.err;
+    EXPECT_NE(run({"info", path, "--repair", "safe"}).out.find("TURNED_FACE: 1 faces"), std::string::npos);
+    EXPECT_NE(run({"info", path, "--repair", "none"}).out.find("INCONSISTENT_EDGE"), std::string::npos);
+}
+
+TEST_F(CommandLineTest, QualityByAProfile) {
+    const std::string path = mesh_file("part.off", test::sliver_cylinder(40, 10));
+    const auto summary = json_of<v1::MeshSummary>(run({"quality", path, "--profile", "verdict", "--json"}));
+    const v1::ProfileReport& report = summary.quality().profile();
+    EXPECT_EQ(report.profile(), v1::VERDICT);
+    EXPECT_EQ(report.passed() + report.warned() + report.failed(), 156U);
+    EXPECT_GE(report.failed(), 80U);
+    EXPECT_NE(run({"quality", path, "--profile", "optistruct"}).out.find("by OPTISTRUCT: "), std::string::npos);
+    EXPECT_NE(run({"quality", path, "--profile", "none"}).err.find("accepted is one of optistruct, stretch-02, verdict"),
+              std::string::npos);
+}
+
 TEST_F(CommandLineTest, WeldClosesSmallGaps) {
     TriangleMesh gapped = test::cube();
     gapped.positions.push_back(gapped.positions[gapped.faces[0][0]] + Vec3(1e-6, 0, 0));
@@ -286,8 +316,7 @@ TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
         {{"improve", cube, "--max-deviation", "1e-12"}, "(--max-deviation)"},
         {{"improve", cube, "--server", ""}, "accepted is HOST:PORT"},
         {{"improv", cube}, "there is no verb 'improv'"},
-        {{"improve", cube, "--repair", "safe"}, "UNSUPPORTED"},
-        {{"info", cube, "--repair", "full"}, "UNSUPPORTED"},
+        {{"improve", cube, "--repair", "some"}, "accepted is one of full, none, safe"},
         {{"control", cube, "--min-stretch", "1.5"}, "(--min-stretch)"},
         {{"control", cube, "--max-valence", "5"}, "(--max-valence)"},
         {{"control", cube, "--min-angle", "60"}, "(--min-angle)"},

@@ -184,12 +184,11 @@ TEST(ConvertTest, UnknownEnumNumbersAreNamedErrors) {
     EXPECT_EQ(from_proto(control).error().field, "feature_detection");
     EXPECT_EQ(from_proto(static_cast<v1::MeshFormat>(99)).error().field, "format");
     EXPECT_EQ(from_proto(static_cast<v1::RecordEncoding>(99)).error().field, "encoding");
-    EXPECT_EQ(check_repair(static_cast<v1::Repair>(99)).error().cause, Cause::kInvalidOption);
+    EXPECT_EQ(from_proto(static_cast<v1::Repair>(99)).error().cause, Cause::kInvalidOption);
 }
 
 TEST(ConvertTest, FormatsSurviveTheWay) {
-    for (const MeshFormat format : {MeshFormat::kStlBinary, MeshFormat::kStlAscii, MeshFormat::kObj, MeshFormat::kPlyBinary,
-                                    MeshFormat::kPlyAscii, MeshFormat::kOff}) {
+    for (const MeshFormat format : mesh_formats()) {
         EXPECT_NE(to_proto(std::optional(format)), v1::MESH_FORMAT_UNSPECIFIED);
         EXPECT_EQ(*from_proto(to_proto(std::optional(format))), format);
     }
@@ -197,13 +196,19 @@ TEST(ConvertTest, FormatsSurviveTheWay) {
     EXPECT_EQ(*from_proto(v1::MESH_FORMAT_UNSPECIFIED), std::nullopt);
 }
 
-TEST(ConvertTest, RepairsOfLaterVersionsAreUnsupported) {
-    EXPECT_TRUE(check_repair(v1::REPAIR_UNSPECIFIED));
-    EXPECT_TRUE(check_repair(v1::NONE));
-    for (const v1::Repair repair : {v1::SAFE, v1::FULL}) {
-        EXPECT_EQ(check_repair(repair).error().cause, Cause::kUnsupported);
-        EXPECT_EQ(check_repair(repair).error().field, "repair");
-    }
+TEST(ConvertTest, RepairsAreTold) {
+    EXPECT_EQ(*from_proto(v1::REPAIR_UNSPECIFIED), std::nullopt);
+    EXPECT_EQ(*from_proto(v1::NONE), RepairMode::kNone);
+    EXPECT_EQ(*from_proto(v1::SAFE), RepairMode::kSafe);
+    EXPECT_EQ(*from_proto(v1::FULL), RepairMode::kFull);
+}
+
+TEST(ConvertTest, OfAFindingTheFirstPlacesAreSent) {
+    Finding finding{Finding::Kind::kStitchedVertex, 100, "many", {7}, std::vector<Vec3>(100, Vec3(1, 2, 3))};
+    const v1::Finding proto = to_proto(finding);
+    EXPECT_EQ(proto.kind(), "STITCHED_VERTEX");
+    EXPECT_EQ(proto.places_size(), static_cast<int>(Finding::kExamples));
+    EXPECT_EQ(proto.places(0).z(), 3);
 }
 
 TEST(ConvertTest, RecordBlocksSurviveTheWay) {

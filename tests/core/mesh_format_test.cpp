@@ -10,8 +10,7 @@
 namespace vsplit::test {
 namespace {
 
-constexpr std::array kFormats = {MeshFormat::kStlBinary, MeshFormat::kStlAscii, MeshFormat::kObj,
-                                 MeshFormat::kPlyBinary, MeshFormat::kPlyAscii, MeshFormat::kOff};
+const std::span<const MeshFormat> kFormats = mesh_formats();
 
 std::optional<MeshFormat> detect(const std::string& text) { return detect_format(std::as_bytes(std::span(text))); }
 
@@ -34,11 +33,13 @@ TEST(MeshFormatTest, UnknownNameListsTheNames) {
 }
 
 TEST(MeshFormatTest, ExtensionsInAnyCase) {
-    const std::vector<std::pair<std::string, MeshFormat>> cases = {{"a.stl", MeshFormat::kStlBinary},
-                                                                   {"/dir.obj/B.STL", MeshFormat::kStlBinary},
-                                                                   {"a.b.Obj", MeshFormat::kObj},
-                                                                   {"a.ply", MeshFormat::kPlyBinary},
-                                                                   {"a.off", MeshFormat::kOff}};
+    const std::vector<std::pair<std::string, MeshFormat>> cases = {
+        {"a.stl", MeshFormat::kStlBinary}, {"/dir.obj/B.STL", MeshFormat::kStlBinary},
+        {"a.b.Obj", MeshFormat::kObj},     {"a.ply", MeshFormat::kPlyBinary},
+        {"a.off", MeshFormat::kOff},       {"a.msh", MeshFormat::kMsh},
+        {"a.inp", MeshFormat::kInp},       {"a.bdf", MeshFormat::kBdf},
+        {"a.NAS", MeshFormat::kBdf},       {"a.vtk", MeshFormat::kVtk},
+        {"a.vtu", MeshFormat::kVtu}};
     for (const auto& [name, format] : cases) {
         const Expected<MeshFormat> found = format_by_extension(name);
         ASSERT_TRUE(found) << name;
@@ -82,6 +83,14 @@ TEST(MeshFormatTest, TextIsToldByItsFirstWord) {
     EXPECT_EQ(detect("# comment\r\n\r\nmtllib a.mtl\r\n"), MeshFormat::kObj);
     EXPECT_EQ(detect("\xEF\xBB\xBFv 0 0 0\n"), MeshFormat::kObj);
     EXPECT_EQ(detect(std::string(10000, '#')), MeshFormat::kObj) << "a comment longer than what is looked at";
+    EXPECT_EQ(detect("** a deck\n*HEADING\n"), MeshFormat::kInp);
+    EXPECT_EQ(detect("$ a comment\nSOL 101\nCEND\nBEGIN BULK\n"), MeshFormat::kBdf);
+    EXPECT_EQ(detect("GRID,1,,0.,0.,0.\n"), MeshFormat::kBdf);
+    EXPECT_EQ(detect("$MeshFormat\n2.2 1 8\n"), MeshFormat::kMsh2);
+    EXPECT_EQ(detect("$Comments\n$EndComments\n$MeshFormat\n4.1 0 8\n"), MeshFormat::kMshAscii);
+    EXPECT_EQ(detect("# vtk DataFile Version 4.2\ntitle\nASCII\n"), MeshFormat::kVtkAscii);
+    EXPECT_EQ(detect("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">"), MeshFormat::kVtu);
+    EXPECT_EQ(detect("<?xml version=\"1.0\"?>\n<svg/>"), std::nullopt);
     EXPECT_EQ(detect("ply\nformat ascii 1.0\n"), MeshFormat::kPlyAscii);
     EXPECT_EQ(detect("ply\r\ncomment a\r\nformat binary_big_endian 1.0\r\n"), MeshFormat::kPlyBinary);
 }

@@ -86,7 +86,10 @@ TEST(ReadMeshTest, StlAsciiWithSeveralSolidsInAnyCaseAndLayout) {
         "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid";
     const ReadResult result = must_read(text);
     EXPECT_EQ(result.format, MeshFormat::kStlAscii);
-    EXPECT_EQ(result.mesh, (TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}}));
+    EXPECT_EQ(result.mesh, (TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                         {{0, 1, 2}, {0, 2, 3}},
+                                         {1, 0},
+                                         {{"first part with facet in its name", {1}}}}));
 }
 
 TEST(ReadMeshTest, ObjCornersOfAllKinds) {

@@ -16,9 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kFormats = {MeshFormat::kStlBinary, MeshFormat::kStlAscii, MeshFormat::kObj,
-                                 MeshFormat::kPlyBinary, MeshFormat::kPlyAscii, MeshFormat::kOff};
-constexpr std::array kExactFormats = {MeshFormat::kObj, MeshFormat::kPlyBinary, MeshFormat::kPlyAscii, MeshFormat::kOff};
+const std::span<const MeshFormat> kFormats = mesh_formats();
+constexpr std::array kExactFormats = {MeshFormat::kObj, MeshFormat::kPlyBinary, MeshFormat::kPlyAscii, MeshFormat::kOff,
+                                      MeshFormat::kMsh, MeshFormat::kMshAscii,  MeshFormat::kMsh2,     MeshFormat::kMsh2Ascii,
+                                      MeshFormat::kInp, MeshFormat::kVtk,       MeshFormat::kVtkAscii, MeshFormat::kVtu};
 
 TriangleMesh read(const std::string& bytes) {
     const Expected<ReadResult> result = read_mesh(std::as_bytes(std::span(bytes)), {});

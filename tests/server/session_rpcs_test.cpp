@@ -69,15 +69,23 @@ TEST(CreateSessionTest, AnOpenMeshIsAcceptedAndItsSummarySaysSo) {
     EXPECT_EQ(created.message.source().findings(0).kind(), "BOUNDARY_EDGE");
 }
 
-TEST(CreateSessionTest, RefusesRepairsOfALaterVersion) {
+TEST(CreateSessionTest, RepairsWhatItIsAskedTo) {
     TestServer server;
-    for (const v1::Repair repair : {v1::SAFE, v1::FULL}) {
-        v1::CreateSessionRequest request;
-        request.set_repair(repair);
-        v1::Session session;
-        EXPECT_TRUE(failed_with(server.stub().CreateSession(call().get(), request, &session), Cause::kUnsupported, "repair"));
+    TriangleMesh open = test::icosphere(4);
+    open.faces.pop_back();
+    v1::CreateSessionRequest request;
+    request.set_mesh(file_of(open));
+    v1::Session session;
+    for (const bool full : {false, true}) {
+        request.set_repair(full ? v1::FULL : v1::SAFE);
+        ASSERT_TRUE(server.stub().CreateSession(call().get(), request, &session).ok());
+        EXPECT_EQ(session.source().closed(), full);
+        ASSERT_EQ(session.source().findings_size(), 1);
+        EXPECT_EQ(session.source().findings(0).kind(), full ? "FILLED_HOLE" : "BOUNDARY_EDGE");
+        EXPECT_GE(session.source().findings(0).places_size(), 1);
     }
-    EXPECT_EQ(list_sessions(server.stub()).message.sessions_size(), 0);
+    request.set_repair(static_cast<v1::Repair>(9));
+    EXPECT_TRUE(failed_with(server.stub().CreateSession(call().get(), request, &session), Cause::kInvalidOption, "repair"));
 }
 
 TEST(CreateSessionTest, NamesTheLimitOfSessions) {

@@ -27,6 +27,10 @@ public:
                 return take(event.base_mesh());
             case v1::ProgressiveEvent::kRecordBlock:
                 return take(event.record_block());
+            case v1::ProgressiveEvent::kRegions:
+                EXPECT_TRUE(received_.mesh && received_.records == 0) << "regions come after the base mesh and before records";
+                EXPECT_LE(event.regions().ids().size(), wire::kMaxPartBytes);
+                return;
             case v1::ProgressiveEvent::kRepresentation:
                 received_.representation = event.representation();
                 return;

@@ -157,10 +157,16 @@ TEST_F(UploadRpcTest, RefusesAnEmptyStreamAndAnUnknownSession) {
     EXPECT_TRUE(failed_with(upload(server_.stub(), "nobody", file_).status, Cause::kNotFound, "session"));
 }
 
-TEST_F(UploadRpcTest, RefusesRepairsOfALaterVersion) {
-    v1::UploadMeshRequest first = first_part(file_);
-    first.set_repair(v1::SAFE);
-    EXPECT_TRUE(failed_with(upload_parts(server_.stub(), {first}).status, Cause::kUnsupported, "repair"));
+TEST_F(UploadRpcTest, RepairsWhatItIsAskedTo) {
+    TriangleMesh open = test::icosphere(4);
+    open.faces.pop_back();
+    v1::UploadMeshRequest first = first_part(file_of(open));
+    first.set_repair(v1::FULL);
+    const auto uploaded = upload_parts(server_.stub(), {first});
+    ASSERT_TRUE(uploaded.status.ok()) << uploaded.status.error_message();
+    EXPECT_TRUE(uploaded.message.source().closed());
+    first.set_repair(static_cast<v1::Repair>(9));
+    EXPECT_TRUE(failed_with(upload_parts(server_.stub(), {first}).status, Cause::kInvalidOption, "repair"));
 }
 
 }  // namespace

@@ -35,6 +35,8 @@ Status EventStream::take(v1::ProgressiveEvent event) {
         case v1::ProgressiveEvent::kRepresentation:
             representation_ = std::move(*event.mutable_representation());
             return Done{};
+        case v1::ProgressiveEvent::kRegions:
+            return handlers_.on_regions ? handlers_.on_regions(event.regions()) : Status(Done{});
         case v1::ProgressiveEvent::EVENT_NOT_SET:
             return Done{};  // a kind of a later version
     }

@@ -25,6 +25,9 @@ EventHandlers guarded_handlers(MeshReceiver& receiver, const Guard& guard) {
     handlers.on_base_mesh = [&receiver, &guard](StreamBase base) {
         return guard([&] { return receiver.begin(std::move(base)); });
     };
+    handlers.on_regions = [&receiver, &guard](const v1::Regions& part) {
+        return guard([&] { return receiver.take_regions(part); });
+    };
     handlers.on_block = [&receiver, &guard](const RecordBlock& block) { return guard([&] { return receiver.append(block); }); };
     return handlers;
 }

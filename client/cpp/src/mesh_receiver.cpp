@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "wire/regions.h"
+
 namespace vsplit::client {
 namespace {
 
@@ -15,7 +17,8 @@ Error too_many(std::uint64_t faces, std::uint32_t limit) {
 
 EventHandlers MeshReceiver::handlers(std::function<void(const v1::Progress&)> on_progress) {
     return {std::move(on_progress), [this](StreamBase base) { return begin(std::move(base)); },
-            [this](const RecordBlock& block) { return append(block); }};
+            [this](const RecordBlock& block) { return append(block); },
+            [this](const v1::Regions& part) { return take_regions(part); }};
 }
 
 Status MeshReceiver::begin(StreamBase base) {
@@ -59,6 +62,13 @@ Status MeshReceiver::append(const RecordBlock& block) {
     return Done{};
 }
 
+Status MeshReceiver::take_regions(const v1::Regions& part) {
+    if (!has_mesh()) return Error{Cause::kOutOfOrder, "regions came without a base mesh", ""};
+    if (part.faces() > max_faces_) return too_many(part.faces(), max_faces_);
+    visible_records_.reset();
+    return wire::add_regions(part, held_);
+}
+
 Status MeshReceiver::append(std::uint32_t first, const RecordSpan& records) {
     if (Status placed = check_place(first); !placed) return placed;
     const std::uint64_t faces = held_.base.face_count() + 2 * (std::uint64_t{held_.levels()} + records.splits.size());
@@ -79,9 +89,9 @@ Status MeshReceiver::show(std::uint32_t faces) {
 }
 
 const TriangleMesh& MeshReceiver::mesh() const {
-    if (held_.ghosts == 0) return progressive_->mesh();
+    if (held_.ghosts == 0 && held_.regions.empty()) return progressive_->mesh();
     if (visible_records_ != progressive_->records()) {
-        visible_ = progressive_->visible();
+        visible_ = visible_of(*progressive_, held_);
         visible_records_ = progressive_->records();
     }
     return visible_;

@@ -82,12 +82,57 @@ std::optional<MeshFormat> detect_by_word(std::string_view text) {
     return {};
 }
 
+/// By the line of the format: its version, and whether bytes follow.
+MeshFormat kind_of_msh(std::string_view text) {
+    std::string_view rest = text.substr(std::min(text.find("$MeshFormat"), text.size()));
+    static_cast<void>(next_word(rest));
+    const bool old = next_word(rest).starts_with('2');
+    const bool is_ascii = next_word(rest) == "0";
+    if (old) return is_ascii ? MeshFormat::kMsh2Ascii : MeshFormat::kMsh2;
+    return is_ascii ? MeshFormat::kMshAscii : MeshFormat::kMsh;
+}
+
+MeshFormat kind_of_vtk(std::string_view text) {
+    TextLines lines(text);
+    for (int line = 0; line < 3 && lines.next(); ++line) {
+    }
+    return equals_ignoring_case(trimmed(lines.line()), "BINARY") ? MeshFormat::kVtk : MeshFormat::kVtkAscii;
+}
+
+/// Nastran's cards and the lines around them, as far as one can see.
+bool has_nastran_line(std::string_view text) {
+    constexpr std::array<std::string_view, 11> kBegins = {"BEGIN BULK", "GRID", "CTRIA", "CQUAD",  "ENDDATA", "NASTRAN ",
+                                                          "SOL ",       "CEND", "MAT1",  "PSHELL", "ID "};
+    TextLines lines(text);
+    while (lines.next()) {
+        const std::string line = upper_case(lines.line());
+        if (std::any_of(kBegins.begin(), kBegins.end(), [&](std::string_view begin) { return line.starts_with(begin); }))
+            return true;
+        if (!trimmed(line).empty() && !line.starts_with('$')) return false;
+    }
+    return false;
+}
+
+std::optional<MeshFormat> detect_for_solvers(std::string_view text) {
+    if (text.starts_with("# vtk DataFile")) return kind_of_vtk(text);
+    std::string_view rest = text;
+    const std::string_view word = next_word(rest);
+    if (word == "$MeshFormat" || (word == "$Comments" && text.find("$MeshFormat") != std::string_view::npos))
+        return kind_of_msh(text);
+    const bool xml = word.starts_with("<?xml") || word.starts_with("<VTKFile") || word.starts_with("<!--");
+    if (xml && text.find("<VTKFile") != std::string_view::npos) return MeshFormat::kVtu;
+    if (has_zeros(text)) return {};
+    if (word.starts_with('*') && word.size() > 1) return MeshFormat::kInp;
+    return has_nastran_line(text) ? std::optional(MeshFormat::kBdf) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<MeshFormat> detect_format(Bytes bytes) {
     if (has_stl_length(bytes)) return MeshFormat::kStlBinary;
     const std::string_view window = as_text(bytes.first(std::min(bytes.size(), kWindow)));
     if (window.starts_with("ply\n") || window.starts_with("ply\r\n")) return kind_of_ply(window);
+    if (const std::optional<MeshFormat> format = detect_for_solvers(without_mark(window))) return format;
     if (const std::optional<MeshFormat> format = detect_by_word(without_mark(window))) return format;
     if (!is_text(window) && resembles_binary_stl(bytes)) return MeshFormat::kStlBinary;
     return {};

@@ -48,6 +48,7 @@ public:
     [[nodiscard]] Status add_polygon(std::span<const std::uint32_t> corners, Place place);
 
     [[nodiscard]] std::uint32_t vertex_count() const { return mesh_.vertex_count(); }
+    [[nodiscard]] std::uint32_t face_count() const { return mesh_.face_count(); }
     [[nodiscard]] TriangleMesh take() { return std::move(mesh_); }
 
 private:

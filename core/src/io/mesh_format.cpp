@@ -1,5 +1,6 @@
 #include "vsplit/io/mesh_format.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -14,12 +15,21 @@ struct FormatName {
     std::string_view extension;  // empty where another format has it
 };
 
-constexpr std::array<FormatName, 6> kFormats = {{{"stl", MeshFormat::kStlBinary, ".stl"},
-                                                 {"stl-ascii", MeshFormat::kStlAscii, ""},
-                                                 {"obj", MeshFormat::kObj, ".obj"},
-                                                 {"ply", MeshFormat::kPlyBinary, ".ply"},
-                                                 {"ply-ascii", MeshFormat::kPlyAscii, ""},
-                                                 {"off", MeshFormat::kOff, ".off"}}};
+constexpr std::array<FormatName, 15> kFormats = {{{"stl", MeshFormat::kStlBinary, ".stl"},
+                                                  {"stl-ascii", MeshFormat::kStlAscii, ""},
+                                                  {"obj", MeshFormat::kObj, ".obj"},
+                                                  {"ply", MeshFormat::kPlyBinary, ".ply"},
+                                                  {"ply-ascii", MeshFormat::kPlyAscii, ""},
+                                                  {"off", MeshFormat::kOff, ".off"},
+                                                  {"msh", MeshFormat::kMsh, ".msh"},
+                                                  {"msh-ascii", MeshFormat::kMshAscii, ""},
+                                                  {"msh2", MeshFormat::kMsh2, ""},
+                                                  {"msh2-ascii", MeshFormat::kMsh2Ascii, ""},
+                                                  {"inp", MeshFormat::kInp, ".inp"},
+                                                  {"bdf", MeshFormat::kBdf, ".bdf"},
+                                                  {"vtk", MeshFormat::kVtk, ".vtk"},
+                                                  {"vtk-ascii", MeshFormat::kVtkAscii, ""},
+                                                  {"vtu", MeshFormat::kVtu, ".vtu"}}};
 
 /// "a, b, c".
 std::string list_of(std::string_view FormatName::*column) {
@@ -31,6 +41,15 @@ std::string list_of(std::string_view FormatName::*column) {
 }
 
 }  // namespace
+
+std::span<const MeshFormat> mesh_formats() {
+    static const auto all = [] {
+        std::array<MeshFormat, kFormats.size()> formats{};
+        std::transform(kFormats.begin(), kFormats.end(), formats.begin(), [](const FormatName& known) { return known.format; });
+        return formats;
+    }();
+    return all;
+}
 
 std::string_view format_name(MeshFormat format) {
     for (const FormatName& known : kFormats) {
@@ -52,6 +71,7 @@ Expected<MeshFormat> format_by_extension(std::string_view file_name) {
     const std::string_view name = slash == std::string_view::npos ? file_name : file_name.substr(slash + 1);
     const std::size_t dot = name.find_last_of('.');
     const std::string_view extension = dot == std::string_view::npos ? std::string_view() : name.substr(dot);
+    if (equals_ignoring_case(extension, ".nas")) return MeshFormat::kBdf;
     for (const FormatName& known : kFormats) {
         if (!extension.empty() && equals_ignoring_case(known.extension, extension)) return known.format;
     }

@@ -16,6 +16,12 @@ MeshFormat family_of(MeshFormat format) {
             return MeshFormat::kStlBinary;
         case MeshFormat::kPlyAscii:
             return MeshFormat::kPlyBinary;
+        case MeshFormat::kMshAscii:
+        case MeshFormat::kMsh2:
+        case MeshFormat::kMsh2Ascii:
+            return MeshFormat::kMsh;
+        case MeshFormat::kVtkAscii:
+            return MeshFormat::kVtk;
         default:
             return format;
     }
@@ -24,8 +30,11 @@ MeshFormat family_of(MeshFormat format) {
 Expected<MeshFormat> choose_format(std::span<const std::byte> bytes, std::optional<MeshFormat> asked) {
     const std::optional<MeshFormat> detected = detect_format(bytes);
     if (!detected && !asked) {
-        return Error{Cause::kUnknownFormat,
-                     "byte 0: the bytes are of no format that is read: STL (binary, ASCII), OBJ, PLY (binary, ASCII), OFF", ""};
+        return Error{
+            Cause::kUnknownFormat,
+            "byte 0: the bytes are of no format that is read: STL (binary, ASCII), OBJ, PLY (binary, ASCII), OFF, MSH, INP, "
+            "BDF, VTK, VTU",
+            ""};
     }
     if (!detected) return *asked;
     if (asked && family_of(*asked) != family_of(*detected)) {
@@ -48,6 +57,20 @@ Expected<TriangleMesh> read_as(MeshFormat format, std::span<const std::byte> byt
         case MeshFormat::kPlyBinary:
         case MeshFormat::kPlyAscii:
             return read_ply(bytes, max_faces);
+        case MeshFormat::kMsh:
+        case MeshFormat::kMshAscii:
+        case MeshFormat::kMsh2:
+        case MeshFormat::kMsh2Ascii:
+            return read_msh(bytes, max_faces);
+        case MeshFormat::kInp:
+            return read_inp(bytes, max_faces);
+        case MeshFormat::kBdf:
+            return read_bdf(bytes, max_faces);
+        case MeshFormat::kVtk:
+        case MeshFormat::kVtkAscii:
+            return read_vtk(bytes, max_faces);
+        case MeshFormat::kVtu:
+            return read_vtu(bytes, max_faces);
         case MeshFormat::kOff:
             break;
     }

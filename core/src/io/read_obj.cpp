@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "io/group_runs.h"
 #include "io/mesh_builder.h"
 #include "io/read_error.h"
 #include "io/readers.h"
@@ -20,7 +21,9 @@ public:
             if (const Status status = read_line(); !status) return status.error();
         }
         if (const Status status = check_forward_references(); !status) return status.error();
-        return builder_.take();
+        TriangleMesh mesh = builder_.take();
+        groups_.give_to(mesh);
+        return mesh;
     }
 
 private:
@@ -49,6 +52,7 @@ private:
         const std::string_view keyword = next_word(line_);
         if (keyword == "v") return read_vertex();
         if (keyword == "f" || keyword == "fo") return read_face();  // "fo" is how old files spell it
+        if (keyword == "g") groups_.begin(trimmed(line_), builder_.face_count());
         const char first = keyword.empty() ? '#' : keyword.front();
         const bool skipped = first == '#' || (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
         if (skipped) return Done{};
@@ -120,6 +124,7 @@ private:
     std::string joined_;  // a continued line
     std::vector<std::uint32_t> corners_;
     std::vector<ForwardReference> forward_;
+    GroupRuns groups_;
     MeshBuilder builder_;
 };
 

@@ -10,6 +10,7 @@
 #include "io/read_error.h"
 #include "io/readers.h"
 #include "io/text_lines.h"
+#include "io/vtk_cells.h"
 
 namespace vsplit {
 namespace {
@@ -59,7 +60,10 @@ public:
             if (const Status status = read_element(element); !status) return status.error();
         }
         if (const Status status = body_.end_file(); !status) return status.error();
-        return builder_.take();
+        TriangleMesh mesh = builder_.take();
+        const bool some = std::any_of(regions_.begin(), regions_.end(), [](std::uint32_t region) { return region != 0; });
+        if (some) mesh.regions = std::move(regions_);
+        return mesh;
     }
 
 private:
@@ -114,9 +118,33 @@ private:
         if (!corners) return corners.error();
         const Status reserved = builder_.reserve(vertices_, element.count, at_line(element.line));
         if (!reserved) return reserved.error();
-        return read_rows(element, [&](const PlyProperty& property, std::size_t number) {
-            return number == *corners ? read_polygon(property) : skip(property);
+        const std::size_t region = find_region(element);
+        const std::size_t last = element.properties.size() - 1;
+        return read_rows(element, [&](const PlyProperty& property, std::size_t number) -> Status {
+            const Status read = number == region     ? read_region(property)
+                                : number == *corners ? read_polygon(property)
+                                                     : skip(property);
+            if (number == last && region <= last) regions_.resize(builder_.face_count(), region_);
+            return read;
         });
+    }
+
+    /// The number of the property that says which region a face is in; beyond all where there is none.
+    static std::size_t find_region(const PlyElement& face) {
+        const auto found = std::find_if(face.properties.begin(), face.properties.end(), [](const PlyProperty& property) {
+            return !property.is_list && is_integer(property.type) && is_region_name(property.name);
+        });
+        return static_cast<std::size_t>(found - face.properties.begin());
+    }
+
+    Status read_region(const PlyProperty& property) {
+        const Place place = body_.place();
+        const Expected<double> value = body_.read(property.type);
+        if (!value) return value.error();
+        if (!(*value >= 0))
+            return read_error(Cause::kMalformedInput, place, "a face's region is " + to_text(*value) + "; 0 or more is accepted");
+        region_ = static_cast<std::uint32_t>(*value);
+        return Done{};
     }
 
     Status read_polygon(const PlyProperty& property) {
@@ -162,6 +190,8 @@ private:
     MeshBuilder builder_;
     std::uint64_t vertices_ = 0;
     std::vector<std::uint32_t> corners_;
+    std::vector<std::uint32_t> regions_;
+    std::uint32_t region_ = 0;  // of the row
 };
 
 }  // namespace

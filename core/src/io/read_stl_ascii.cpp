@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "io/group_runs.h"
 #include "io/mesh_builder.h"
 #include "io/read_error.h"
 #include "io/readers.h"
@@ -21,7 +22,9 @@ public:
         while (!error_ && read_solid()) {
         }
         if (error_) return *std::move(error_);
-        return soup_.take();
+        TriangleMesh mesh = soup_.take();
+        solids_.give_to(mesh);
+        return mesh;
     }
 
 private:
@@ -64,6 +67,8 @@ private:
             fail_word("'solid'", first);
             return false;
         }
+        std::string_view name = trimmed(rest_);
+        solids_.begin(name, static_cast<std::uint32_t>(soup_.face_count()));
         rest_ = {};  // its name
         for (;;) {
             const std::string_view found = word();
@@ -118,6 +123,7 @@ private:
     std::string_view rest_;  // of the line
     std::uint32_t max_faces_;
     VertexSoup soup_;
+    GroupRuns solids_;
     std::optional<Error> error_;
 };
 

@@ -54,6 +54,17 @@ Error facet_error(const std::array<Vec3, 3>& corners, std::size_t facet, std::si
     return {};
 }
 
+/// The attributes as regions, where they are not all the same: some programs have colours there, vsplit has regions.
+void read_attributes(std::span<const std::byte> bytes, TriangleMesh& mesh) {
+    const auto attribute = [&](std::size_t facet) {
+        return load<std::uint16_t>(bytes.data() + kStlFacetsAt + (facet + 1) * kStlFacetBytes - sizeof(std::uint16_t));
+    };
+    std::size_t facet = 0;
+    while (facet < mesh.faces.size() && attribute(facet) == attribute(0)) ++facet;
+    if (facet == mesh.faces.size()) return;
+    for (facet = 0; facet < mesh.faces.size(); ++facet) mesh.regions.push_back(attribute(facet));
+}
+
 }  // namespace
 
 Expected<TriangleMesh> read_stl_binary(std::span<const std::byte> bytes, std::uint32_t max_faces) {
@@ -71,7 +82,9 @@ Expected<TriangleMesh> read_stl_binary(std::span<const std::byte> bytes, std::ui
         if (!is_valid(corners)) return facet_error(corners, facet, byte);
         soup.add_triangle(corners[0], corners[1], corners[2]);
     }
-    return soup.take();
+    TriangleMesh mesh = soup.take();
+    read_attributes(bytes, mesh);
+    return mesh;
 }
 
 }  // namespace vsplit

@@ -17,5 +17,10 @@ namespace vsplit {
 [[nodiscard]] Expected<TriangleMesh> read_obj(std::span<const std::byte> bytes, std::uint32_t max_faces);
 [[nodiscard]] Expected<TriangleMesh> read_ply(std::span<const std::byte> bytes, std::uint32_t max_faces);
 [[nodiscard]] Expected<TriangleMesh> read_off(std::span<const std::byte> bytes, std::uint32_t max_faces);
+[[nodiscard]] Expected<TriangleMesh> read_msh(std::span<const std::byte> bytes, std::uint32_t max_faces);
+[[nodiscard]] Expected<TriangleMesh> read_inp(std::span<const std::byte> bytes, std::uint32_t max_faces);
+[[nodiscard]] Expected<TriangleMesh> read_bdf(std::span<const std::byte> bytes, std::uint32_t max_faces);
+[[nodiscard]] Expected<TriangleMesh> read_vtk(std::span<const std::byte> bytes, std::uint32_t max_faces);
+[[nodiscard]] Expected<TriangleMesh> read_vtu(std::span<const std::byte> bytes, std::uint32_t max_faces);
 
 }  // namespace vsplit

@@ -67,6 +67,25 @@ std::string_view next_word(std::string_view& line) {
     return {from, static_cast<std::size_t>(to - from)};
 }
 
+std::string upper_case(std::string_view text) {
+    std::string upper(text);
+    for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    return upper;
+}
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+std::string_view next_field(std::string_view& line, char separator) {
+    const std::size_t end = std::min(line.find(separator), line.size());
+    const std::string_view field = trimmed(line.substr(0, end));
+    line.remove_prefix(std::min(end + 1, line.size()));
+    return field;
+}
+
 bool equals_ignoring_case(std::string_view left, std::string_view right) {
     const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
     return std::equal(left.begin(), left.end(), right.begin(), right.end(), [&](char a, char b) { return lower(a) == lower(b); });

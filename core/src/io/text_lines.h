@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace vsplit {
@@ -39,6 +40,15 @@ private:
 
 /// Takes the next word (between white space) off the front of `line`; empty when there is none.
 [[nodiscard]] std::string_view next_word(std::string_view& line);
+
+/// Letters of ASCII only.
+[[nodiscard]] std::string upper_case(std::string_view text);
+
+/// Without white space at either end.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// Takes what stands before the next `separator` off the front of `line`, trimmed; all of it where there is none.
+[[nodiscard]] std::string_view next_field(std::string_view& line, char separator);
 
 [[nodiscard]] bool equals_ignoring_case(std::string_view left, std::string_view right);
 

@@ -17,6 +17,21 @@ std::string write_mesh(const TriangleMesh& mesh, MeshFormat format) {
             return write_ply_binary(mesh);
         case MeshFormat::kPlyAscii:
             return write_ply_ascii(mesh);
+        case MeshFormat::kMsh:
+        case MeshFormat::kMshAscii:
+            return write_msh_4(mesh, format == MeshFormat::kMshAscii);
+        case MeshFormat::kMsh2:
+        case MeshFormat::kMsh2Ascii:
+            return write_msh_2(mesh, format == MeshFormat::kMsh2Ascii);
+        case MeshFormat::kInp:
+            return write_inp(mesh);
+        case MeshFormat::kBdf:
+            return write_bdf(mesh);
+        case MeshFormat::kVtk:
+        case MeshFormat::kVtkAscii:
+            return write_vtk(mesh, format == MeshFormat::kVtkAscii);
+        case MeshFormat::kVtu:
+            return write_vtu(mesh);
         case MeshFormat::kOff:
             break;
     }

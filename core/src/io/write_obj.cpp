@@ -1,3 +1,6 @@
+#include <map>
+
+#include "io/named_regions.h"
 #include "io/text_writer.h"
 #include "io/writers.h"
 
@@ -6,10 +9,20 @@ namespace vsplit {
 std::string write_obj(const TriangleMesh& mesh) {
     TextWriter text(mesh.positions.size() * kVertexTextBytes + mesh.faces.size() * kFaceTextBytes);
     for (const Vec3& position : mesh.positions) text << "v " << position << "\n";
-    for (const Triangle& face : mesh.faces) {
+    const auto write_face = [&](const Triangle& face) {
         text << "f";
         for (const std::uint32_t vertex : face) text << " " << std::uint64_t{vertex} + 1;
         text << "\n";
+    };
+    if (mesh.regions.empty()) {
+        for (const Triangle& face : mesh.faces) write_face(face);
+        return text.take();
+    }
+    std::map<std::uint32_t, std::string> names;
+    for (const NamedRegion& region : named_regions(mesh)) names[region.region] = region.region == 0 ? "" : region.name;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        if (f == 0 || mesh.regions[f] != mesh.regions[f - 1]) text << "g " << names[mesh.regions[f]] << "\n";
+        write_face(mesh.faces[f]);
     }
     return text.take();
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/byte_order.h"
+#include "io/named_regions.h"
 #include "io/stl_layout.h"
 #include "io/text_writer.h"
 #include "io/writers.h"
@@ -41,7 +42,9 @@ std::string write_stl_binary(const TriangleMesh& mesh) {
         for (const Vec3f& row : facet(mesh, face)) {
             for (int axis = 0; axis < 3; ++axis) to = store(to, row[axis]);
         }
-        to = store(to, std::uint16_t{0});
+        // The attribute, which nobody agrees on, keeps a region that fits.
+        const std::uint32_t region = mesh.regions.empty() ? 0 : mesh.regions[static_cast<std::size_t>(&face - mesh.faces.data())];
+        to = store(to, static_cast<std::uint16_t>(region <= 0xFFFF ? region : 0));
     }
     return bytes;
 }
@@ -52,15 +55,20 @@ std::string write_stl_ascii(const TriangleMesh& mesh) {
     const auto point = [&](std::string_view before, const Vec3f& row) {
         text << before << row.x() << " " << row.y() << " " << row.z() << "\n";
     };
-    text << "solid vsplit\n";
-    for (const Triangle& face : mesh.faces) {
-        const std::array<Vec3f, 4> rows = facet(mesh, face);
-        point("  facet normal ", rows[0]);
-        text << "    outer loop\n";
-        for (std::size_t corner = 1; corner < rows.size(); ++corner) point("      vertex ", rows[corner]);
-        text << "    endloop\n  endfacet\n";
-    }
-    text << "endsolid vsplit\n";
+    const auto write_solid = [&](std::string_view name, const std::vector<std::uint32_t>& faces) {
+        text << "solid " << name << "\n";
+        for (const std::uint32_t f : faces) {
+            const std::array<Vec3f, 4> rows = facet(mesh, mesh.faces[f]);
+            point("  facet normal ", rows[0]);
+            text << "    outer loop\n";
+            for (std::size_t corner = 1; corner < rows.size(); ++corner) point("      vertex ", rows[corner]);
+            text << "    endloop\n  endfacet\n";
+        }
+        text << "endsolid " << name << "\n";
+    };
+    const std::vector<NamedRegion> regions = named_regions(mesh);
+    if (regions.empty()) write_solid("vsplit", {});
+    for (const NamedRegion& region : regions) write_solid(mesh.regions.empty() ? "vsplit" : region.name, region.faces);
     return text.take();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "vsplit/mesh/triangle_mesh.h"
 
@@ -14,5 +15,16 @@ namespace vsplit {
 [[nodiscard]] std::string write_ply_binary(const TriangleMesh& mesh);
 [[nodiscard]] std::string write_ply_ascii(const TriangleMesh& mesh);
 [[nodiscard]] std::string write_off(const TriangleMesh& mesh);
+[[nodiscard]] std::string write_msh_4(const TriangleMesh& mesh, bool text);
+[[nodiscard]] std::string write_msh_2(const TriangleMesh& mesh, bool text);
+[[nodiscard]] std::string write_inp(const TriangleMesh& mesh);
+[[nodiscard]] std::string write_bdf(const TriangleMesh& mesh);
+[[nodiscard]] std::string write_vtk(const TriangleMesh& mesh, bool text);
+[[nodiscard]] std::string write_vtu(const TriangleMesh& mesh);
+
+/// The set of all elements in an input deck; a reader makes no region of it.
+inline constexpr std::string_view kAllElements = "Eall";
+/// What an input deck's surface is called of which a set of elements is one side: the set's name with this behind it.
+inline constexpr std::string_view kSurfaceSuffix = "_surface";
 
 }  // namespace vsplit

@@ -49,6 +49,13 @@ CappedMesh cap_manifold(TriangleMesh mesh) {
 
 TriangleMesh visible_mesh(TriangleMesh complex, std::uint32_t ghosts) {
     if (ghosts == 0) return complex;
+    if (!complex.regions.empty()) {
+        std::size_t kept = 0;
+        for (std::size_t f = 0; f < complex.faces.size(); ++f) {
+            if (!touches_ghost(complex.faces[f], ghosts)) complex.regions[kept++] = complex.regions[f];
+        }
+        complex.regions.resize(kept);
+    }
     std::erase_if(complex.faces, [ghosts](const Triangle& face) { return touches_ghost(face, ghosts); });
     for (Triangle& face : complex.faces) {
         for (std::uint32_t& vertex : face) vertex -= ghosts;

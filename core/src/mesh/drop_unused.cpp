@@ -5,16 +5,24 @@
 namespace vsplit {
 namespace {
 
-std::uint32_t drop_collapsed_faces(std::vector<Triangle>& faces) {
-    const auto collapsed = [](const Triangle& face) { return face[0] == face[1] || face[1] == face[2] || face[2] == face[0]; };
-    return static_cast<std::uint32_t>(std::erase_if(faces, collapsed));
+bool is_collapsed(const Triangle& face) { return face[0] == face[1] || face[1] == face[2] || face[2] == face[0]; }
+
+std::uint32_t drop_collapsed_faces(TriangleMesh& mesh) {
+    if (!mesh.regions.empty()) {
+        std::size_t kept = 0;
+        for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+            if (!is_collapsed(mesh.faces[f])) mesh.regions[kept++] = mesh.regions[f];
+        }
+        mesh.regions.resize(kept);
+    }
+    return static_cast<std::uint32_t>(std::erase_if(mesh.faces, is_collapsed));
 }
 
 }  // namespace
 
 WeldCounts drop_unused(TriangleMesh& mesh) {
     WeldCounts counts;
-    counts.collapsed_faces = drop_collapsed_faces(mesh.faces);
+    counts.collapsed_faces = drop_collapsed_faces(mesh);
     std::vector<std::uint32_t> number(mesh.positions.size(), 0);
     for (const Triangle& face : mesh.faces) {
         for (const std::uint32_t vertex : face) number[vertex] = 1;

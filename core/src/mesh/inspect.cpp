@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <string>
 #include <vector>
 
+#include "mesh/disjoint_sets.h"
 #include "mesh/half_edges.h"
 #include "quality/quality_of_edges.h"
 #include "vsplit/quality/stretch.h"
@@ -18,25 +18,6 @@ namespace vsplit {
 namespace {
 
 constexpr double kDegenerateStretch = 1e-9;
-
-/// Disjoint sets with path halving; roots are the smallest members.
-class DisjointSets {
-public:
-    explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-    std::uint32_t find(std::uint32_t x) {
-        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-        return x;
-    }
-    void join(std::uint32_t x, std::uint32_t y) {
-        x = find(x);
-        y = find(y);
-        if (x != y) parent_[std::max(x, y)] = std::min(x, y);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 template <class Visit>
 void for_each_in_parallel(std::size_t count, Visit visit) {
@@ -224,7 +205,7 @@ std::uint32_t used_vertices(const TriangleMesh& mesh) {
 
 /// What is no longer there has no place to look at.
 void report_dropped(std::vector<Finding>& findings, Finding::Kind kind, std::uint32_t count, std::string_view what) {
-    if (count > 0) findings.push_back({kind, count, std::to_string(count) + " " + std::string(what), {}});
+    if (count > 0) findings.push_back({kind, count, std::to_string(count) + " " + std::string(what), {}, {}});
 }
 
 const Finding* find_kind(const MeshReport& report, Finding::Kind kind) {
@@ -249,27 +230,27 @@ std::string places(const Finding& finding, bool edges) {
 
 }  // namespace
 
-std::string_view finding_name(Finding::Kind kind) {
-    switch (kind) {
-        case Finding::Kind::kBoundaryEdge:
-            return "BOUNDARY_EDGE";
-        case Finding::Kind::kNonManifoldEdge:
-            return "NON_MANIFOLD_EDGE";
-        case Finding::Kind::kInconsistentEdge:
-            return "INCONSISTENT_EDGE";
-        case Finding::Kind::kNonManifoldVertex:
-            return "NON_MANIFOLD_VERTEX";
-        case Finding::Kind::kDegenerateFace:
-            return "DEGENERATE_FACE";
-        case Finding::Kind::kDuplicateFace:
-            return "DUPLICATE_FACE";
-        case Finding::Kind::kUnusedVertex:
-            return "UNUSED_VERTEX";
-        case Finding::Kind::kCollapsedFace:
-            return "COLLAPSED_FACE";
+namespace {
+
+/// Where the examples of a finding are.
+void add_places(const TriangleMesh& mesh, Finding& finding) {
+    const bool of_edges = finding.kind <= Finding::Kind::kInconsistentEdge;
+    const bool of_faces = finding.kind == Finding::Kind::kDegenerateFace || finding.kind == Finding::Kind::kDuplicateFace;
+    const std::vector<std::uint32_t>& e = finding.elements;
+    for (std::size_t i = 0; i < e.size(); i += of_edges ? 2 : 1) {
+        Vec3 place = Vec3::Zero();
+        if (of_edges) {
+            place = (mesh.positions[e[i]] + mesh.positions[e[i + 1]]) / 2;
+        } else if (of_faces) {
+            for (const std::uint32_t v : mesh.faces[e[i]]) place += mesh.positions[v] / 3;
+        } else {
+            place = mesh.positions[e[i]];
+        }
+        finding.places.push_back(place);
     }
-    return "UNKNOWN";
 }
+
+}  // namespace
 
 MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     MeshReport report;
@@ -306,6 +287,7 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     vertices.report(report.findings, "non-manifold vertices (more than one fan of faces)", "vertex");
     degenerate.report(report.findings, "degenerate faces (stretch under 1e-9)", "face");
     duplicates.report(report.findings, "faces with the same three vertices as an earlier one", "face");
+    for (Finding& finding : report.findings) add_places(mesh, finding);
     report_dropped(report.findings, Finding::Kind::kUnusedVertex, weld.unused_vertices,
                    "vertices that no face used were dropped");
     report_dropped(report.findings, Finding::Kind::kCollapsedFace, weld.collapsed_faces,

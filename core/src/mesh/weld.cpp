@@ -7,12 +7,14 @@
 
 #include "mesh/drop_unused.h"
 #include "mesh/exact_merger.h"
+#include "mesh/merge_vertices.h"
 #include "mesh/near_merger.h"
 
 namespace vsplit {
 namespace {
 
-/// Both mergers keep the vertices at the front of `positions` and return each vertex's new number.
+// Both keep the vertices at the front of `positions` and return each vertex's new number.
+
 std::vector<std::uint32_t> merge_exactly(std::vector<Vec3>& positions) {
     std::vector<std::uint32_t> numbers(positions.size());
     ExactMerger merger;
@@ -40,14 +42,17 @@ std::vector<std::uint32_t> merge_near(std::vector<Vec3>& positions, double toler
 
 }  // namespace
 
+std::vector<std::uint32_t> merge_vertices(std::vector<Vec3>& positions, double tolerance) {
+    return tolerance == 0 ? merge_exactly(positions) : merge_near(positions, tolerance);
+}
+
 Expected<WeldCounts> weld(TriangleMesh& mesh, double tolerance) {
     if (!(tolerance >= 0) || std::isinf(tolerance)) {
         return Error{Cause::kInvalidOption,
                      "weld tolerance is " + std::to_string(tolerance) + "; a finite length of 0 or more is needed", "weld"};
     }
     const std::size_t before = mesh.positions.size();
-    const std::vector<std::uint32_t> numbers =
-        tolerance == 0 ? merge_exactly(mesh.positions) : merge_near(mesh.positions, tolerance);
+    const std::vector<std::uint32_t> numbers = merge_vertices(mesh.positions, tolerance);
     for (Triangle& face : mesh.faces) {
         for (std::uint32_t& vertex : face) vertex = numbers[vertex];
     }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/thread_limit.h"
+#include "method/carry_regions.h"
 #include "method/control_bounds.h"
 #include "method/flip_slivers.h"
 #include "method/mend_hubs.h"
@@ -74,9 +75,10 @@ ControlOptions default_options(const TriangleMesh& mesh, const ControlOptions& o
 
 namespace {
 
-Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptions& options, const MethodLimits& limits,
+Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptions& given, const MethodLimits& limits,
                                     const ExecutionContext& context) {
     const auto start = std::chrono::steady_clock::now();
+    const ControlOptions options = with_regions(mesh, given);
     if (Status valid = check_options(options); !valid) return valid.error();
     context.report({"inspect", 0, mesh.face_count()});
     const MeshReport report = inspect(mesh);
@@ -116,6 +118,7 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
         run_policy(mesh, std::move(*subdivided), run, policy_of(used, bounding_box(mesh).diagonal()), faces_of, context);
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
+    carry_regions(mesh, options.regions, result.mrr);
     result.options = used;
     const TriangleMesh shown = mesh_at(result.mrr, result.mrr.level_for(result.faces));
     result.violations = find_violations(shown, used);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/thread_limit.h"
+#include "method/carry_regions.h"
 #include "method/flip_slivers.h"
 #include "method/run_policy.h"
 #include "method/subdivision.h"
@@ -139,8 +140,9 @@ ImproveOptions options_as_used(const TriangleMesh& mesh, const ImproveOptions& o
     return used;
 }
 
-Expected<MethodResult> improve_once(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
+Expected<MethodResult> improve_once(const TriangleMesh& mesh, const ImproveOptions& given, const MethodLimits& limits,
                                     double fineness, const ExecutionContext& context) {
+    const ImproveOptions options = with_regions(mesh, given);
     if (Status valid = check_options(options); !valid) return valid.error();
     context.report({"inspect", 0, mesh.face_count()});
     const MeshReport report = inspect(mesh);
@@ -178,6 +180,7 @@ Expected<MethodResult> improve_once(const TriangleMesh& mesh, const ImproveOptio
     Expected<MethodResult> tried = run_policy(mesh, std::move(*subdivided), run, policy_of(used), faces_of, context);
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
+    carry_regions(mesh, options.regions, result.mrr);
     if (options.sizing) report_sizes(result, coarse, **sizes);
     report_deviation(result, options.max_deviation);
     report_floor(result, options.min_mean_stretch);

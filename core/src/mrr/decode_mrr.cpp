@@ -4,6 +4,7 @@
 
 #include "base/byte_order.h"
 #include "mrr/mrr_layout.h"
+#include "mrr/region_section.h"
 #include "vsplit/mrr/mrr_file.h"
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/mrr/record_block.h"
@@ -114,9 +115,6 @@ private:
 
     Status check_end() {
         const std::string all = std::to_string(records().size()) + " records";
-        if (left() != 0) {
-            return error_at(Cause::kCorrupt, at_, std::to_string(left()) + " bytes follow the last of " + all);
-        }
         if (mesh_->level() != field(kMrrSplitsAt)) {
             return error_at(
                 Cause::kCorrupt, kMrrSplitsAt,
@@ -126,7 +124,7 @@ private:
             return error_at(Cause::kCorrupt, bytes_.size(), "the last of " + all + " is no split; edits stand before a split");
         }
         stored_.mrr.border_splits = mesh_->border_splits();
-        return Done{};
+        return left() == 0 ? Status(Done{}) : decode_regions(bytes_.subspan(at_), at_, stored_.mrr);
     }
 
     Status read_block() {

@@ -4,6 +4,7 @@
 
 #include "base/byte_order.h"
 #include "mrr/mrr_layout.h"
+#include "mrr/region_section.h"
 #include "vsplit/mrr/mrr_file.h"
 #include "vsplit/mrr/record_block.h"
 
@@ -74,7 +75,7 @@ std::string encode_mrr(const StoredMrr& stored) {
         store_block(bytes.data() + at, block);
         first += count;
     }
-    return bytes;
+    return bytes + encode_regions(stored.mrr);
 }
 
 }  // namespace vsplit

@@ -309,13 +309,21 @@ void ProgressiveMesh::coarsen(std::size_t levels) {
 
 TriangleMesh ProgressiveMesh::visible() const { return visible_mesh(mesh_, ghosts_); }
 
+TriangleMesh visible_of(const ProgressiveMesh& mesh, const MultiresMesh& mrr) {
+    if (mrr.regions.size() < mesh.mesh().faces.size()) return mesh.visible();
+    TriangleMesh complex = mesh.mesh();
+    complex.regions.assign(mrr.regions.begin(), mrr.regions.begin() + static_cast<std::ptrdiff_t>(complex.faces.size()));
+    complex.sets = mrr.sets;
+    return visible_mesh(std::move(complex), mrr.ghosts);
+}
+
 TriangleMesh mesh_at(const MultiresMesh& mrr, std::size_t level) {
     Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(mrr.base, mrr.ghosts);
     assert(mesh.has_value());
     const std::size_t records = mrr.record_of_level(std::min(level, mrr.levels()));
     [[maybe_unused]] const Status refined = mesh->refine(mrr.records.slice(0, records));
     assert(refined.has_value());
-    return mesh->visible();
+    return visible_of(*mesh, mrr);
 }
 
 }  // namespace vsplit

@@ -39,6 +39,14 @@ double fitting_max_edge(const TriangleMesh& mesh, std::uint64_t limit) {
                           [&](double max_edge) { return predict_subdivision(mesh, max_edge, limit); });
 }
 
+/// Faces are in the region of the face they lie in.
+SubdividedMesh with_regions(const TriangleMesh& source, SubdividedMesh fine) {
+    if (source.regions.size() != source.faces.size()) return fine;
+    for (const std::uint32_t parent : fine.parent) fine.mesh.regions.push_back(source.regions[parent]);
+    fine.mesh.sets = source.sets;
+    return fine;
+}
+
 }  // namespace
 
 std::uint64_t predict_subdivision(const TriangleMesh& mesh, double max_edge, std::uint64_t limit) {
@@ -52,7 +60,9 @@ Expected<SubdividedMesh> subdivide_to_size(const TriangleMesh& mesh, double max_
     if (Status valid = check_subdivision(mesh, max_edge, face_limit); !valid) return valid.error();
     const std::uint64_t predicted = predict_subdivision(mesh, max_edge, face_limit);
     if (predicted > face_limit) return too_many_faces(max_edge, face_limit, fitting_max_edge(mesh, face_limit));
-    return subdivide_by(mesh, UniformSize{max_edge}, point_of(mesh), predicted, context);
+    Expected<SubdividedMesh> fine = subdivide_by(mesh, UniformSize{max_edge}, point_of(mesh), predicted, context);
+    if (!fine) return fine;
+    return with_regions(mesh, *std::move(fine));
 }
 
 Expected<SubdividedMesh> subdivide_one_to_four(const TriangleMesh& mesh, std::uint32_t times, std::uint32_t face_limit,
@@ -64,7 +74,7 @@ Expected<SubdividedMesh> subdivide_one_to_four(const TriangleMesh& mesh, std::ui
         context.report({"subdivide", static_cast<double>(round) / times, static_cast<std::uint32_t>(current.faces.size())});
         subdivide_round(current, EveryEdge{});
     }
-    return finish_subdivision(std::move(current));
+    return with_regions(mesh, finish_subdivision(std::move(current)));
 }
 
 }  // namespace vsplit

@@ -9,7 +9,7 @@
 
 namespace vsplit {
 
-/// Mesh files that are read and written. Reading tells kStlBinary from kStlAscii, and the kinds of PLY apart, by the bytes.
+/// Mesh files that are read and written. Reading tells the kinds of STL, PLY, MSH and VTK apart by the bytes.
 enum class MeshFormat {
     kStlBinary,
     kStlAscii,
@@ -17,9 +17,22 @@ enum class MeshFormat {
     kPlyBinary,  ///< little-endian when written; both byte orders are read
     kPlyAscii,
     kOff,
+    kMsh,        ///< Gmsh 4.1, bytes when written; 4.1 and 2.2 are read, text and bytes
+    kMshAscii,   ///< Gmsh 4.1 as text
+    kMsh2,       ///< Gmsh 2.2, bytes
+    kMsh2Ascii,  ///< Gmsh 2.2 as text
+    kInp,        ///< input deck of Abaqus and CalculiX
+    kBdf,        ///< Nastran bulk data
+    kVtk,        ///< legacy VTK, bytes
+    kVtkAscii,   ///< legacy VTK as text
+    kVtu,        ///< VTK's XML for unstructured grids
 };
 
-/// "stl", "stl-ascii", "obj", "ply", "ply-ascii", "off".
+/// All of them.
+[[nodiscard]] std::span<const MeshFormat> mesh_formats();
+
+/// "stl", "stl-ascii", "obj", "ply", "ply-ascii", "off", "msh", "msh-ascii", "msh2", "msh2-ascii", "inp", "bdf", "vtk",
+/// "vtk-ascii", "vtu".
 [[nodiscard]] std::string_view format_name(MeshFormat format);
 
 /// The inverse of format_name. \return INVALID_OPTION listing the names.

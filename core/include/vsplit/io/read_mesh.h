@@ -26,12 +26,14 @@ struct ReadResult {
     WeldCounts weld;
 };
 
-/// Reads STL (binary, ASCII), OBJ, PLY (ASCII, little- and big-endian) or OFF from memory and welds it.
+/// Reads STL (binary, ASCII), OBJ, PLY (ASCII, little- and big-endian), OFF, MSH (2.2, 4.1), INP, BDF, VTK or VTU from memory and
+/// welds it. Of what solvers mesh, triangles and quadrilaterals are read, by their corners where they have mid-side nodes.
 ///
-/// Attributes other than positions and faces are skipped. Nothing is repaired: a wrong byte is an error that says where
+/// Attributes other than positions, faces and regions are skipped. Nothing is repaired: a wrong byte is an error that says where
 /// (line for text, byte offset for binary), what was read and what was expected.
 /// \return EMPTY_INPUT, UNKNOWN_FORMAT, TRUNCATED_INPUT, MALFORMED_INPUT, INVALID_COORDINATE (NaN, infinite, or beyond 1e15 in
-///         magnitude), INDEX_OUT_OF_RANGE, LIMIT_EXCEEDED, UNSUPPORTED (binary OFF), INVALID_OPTION (weld).
+///         magnitude), INDEX_OUT_OF_RANGE, LIMIT_EXCEEDED, UNSUPPORTED (e.g. binary OFF, a mesh of solids), INVALID_OPTION
+///         (weld).
 /// Complexity: O(bytes). Memory: the mesh, and 20 bytes a vertex while welding.
 [[nodiscard]] Expected<ReadResult> read_mesh(std::span<const std::byte> bytes, const ReadOptions& options);
 

@@ -9,7 +9,8 @@
 
 namespace vsplit {
 
-/// The bytes of a mesh file. STL holds single precision (the format knows no other); OBJ, OFF and both PLY keep doubles exactly
+/// The bytes of a mesh file. STL holds single precision (the format knows no other); BDF
+/// 11 digits or more; all others keep doubles exactly
 /// (shortest text that reads back equal; PLY properties of type double). The same mesh gives the same bytes, always.
 /// O(faces) time; memory: the file.
 [[nodiscard]] std::string write_mesh(const TriangleMesh& mesh, MeshFormat format);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace vsplit {
@@ -12,11 +13,21 @@ using Vec3 = Eigen::Vector3d;
 /// Vertex indices of a face, counter-clockwise seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// Faces under a name: those of some regions. Sets may overlap.
+struct FaceSet {
+    std::string name;
+    std::vector<std::uint32_t> regions;
+
+    friend bool operator==(const FaceSet&, const FaceSet&) = default;
+};
+
 /// An indexed triangle mesh: what is read, written, and handed from verb to verb.
 /// Indices are 0-based; a valid mesh has every index below `positions.size()` (see `inspect`).
 struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<Triangle> faces;
+    std::vector<std::uint32_t> regions{};  ///< an id a face, in order; empty: the mesh has no regions
+    std::vector<FaceSet> sets{};           ///< names of regions, for who reads and writes files
 
     [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size()); }
     [[nodiscard]] std::uint32_t face_count() const { return static_cast<std::uint32_t>(faces.size()); }

@@ -23,6 +23,10 @@ struct MultiresMesh {
     std::uint32_t ghosts = 0;                       ///< 0: the mesh is closed
     std::uint32_t ghost_faces = 0;                  ///< faces of the base that touch a ghost; count_ghost_faces(base, ghosts)
     std::vector<std::uint32_t> border_splits = {};  ///< splits, ascending, that add one visible face; all others add two
+    /// Of each face of the finest complex its region, 0 where it touches a ghost; empty: none. A face keeps its number from the
+    /// level on at which it first is there, and its region: those of a level are the first so many.
+    std::vector<std::uint32_t> regions = {};
+    std::vector<FaceSet> sets = {};  ///< as in TriangleMesh
 
     /// Number of splits.
     [[nodiscard]] std::size_t levels() const { return records.splits().size(); }

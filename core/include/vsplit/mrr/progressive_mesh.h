@@ -117,6 +117,9 @@ private:
     std::vector<Vec3> lay_;              // where the vertex of each split and move lay before
 };
 
+/// What is visible of `mesh`, which stands at some record of `mrr`, with the regions and sets of `mrr`. O(faces).
+[[nodiscard]] TriangleMesh visible_of(const ProgressiveMesh& mesh, const MultiresMesh& mrr);
+
 /// What is visible of `mrr` at a level (clamped to the last). O(records). \pre `mrr` was made by this library (asserts
 /// otherwise).
 [[nodiscard]] TriangleMesh mesh_at(const MultiresMesh& mrr, std::size_t level);

@@ -53,6 +53,8 @@ struct EventHandlers {
     std::function<Status(StreamBase base)> on_base_mesh;
     /// A block as it came; RecordCodec decodes it, on the mesh that the base and the blocks before it made.
     std::function<Status(const RecordBlock& block)> on_block;
+    /// A part of the regions, after the base mesh and before records, where there are any.
+    std::function<Status(const v1::Regions& part)> on_regions{};
 };
 
 }  // namespace vsplit::client

@@ -20,7 +20,7 @@ namespace vsplit::client {
 ///     if (Status shown = receiver.show(2000); shown) use(receiver.mesh());   // coarser: needs no server
 ///
 /// Everything that comes is checked by ProgressiveMesh before it is kept. Not thread-safe. Memory: that of ProgressiveMesh and
-/// of RecordList; once more the mesh shown where it has open boundaries.
+/// of RecordList; once more the mesh shown where it has open boundaries or regions.
 class MeshReceiver {
 public:
     /// `max_faces`: LIMIT_EXCEEDED when a stream builds more.
@@ -38,6 +38,9 @@ public:
     /// Adds a block's records and shows them. \return OUT_OF_ORDER when its first record is not the number of records held, that
     /// is also for a block that is repeated or left out; CORRUPT naming the block by its first record; LIMIT_EXCEEDED.
     [[nodiscard]] Status append(const RecordBlock& block);
+
+    /// Adds a part of the regions. \return OUT_OF_ORDER, CORRUPT, LIMIT_EXCEEDED.
+    [[nodiscard]] Status take_regions(const v1::Regions& part);
 
     /// Adds records and shows them; a run may end between two splits. \return OUT_OF_ORDER when `first` is not the number of
     /// records held or no base mesh came before; CORRUPT for a record that does not fit the mesh; LIMIT_EXCEEDED.
@@ -77,7 +80,7 @@ private:
     double max_error_ = 0;
     MultiresMesh held_;
     std::optional<ProgressiveMesh> progressive_;
-    mutable std::optional<std::size_t> visible_records_;  // what visible_ shows; only with ghosts
+    mutable std::optional<std::size_t> visible_records_;  // what visible_ shows; only with ghosts or regions
     mutable TriangleMesh visible_;
 };
 

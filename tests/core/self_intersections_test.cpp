@@ -1,11 +1,13 @@
-#include "quality/self_intersections.h"
+#include "vsplit/quality/self_intersections.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/core/meshes.h"
 
-namespace vsplit::bench {
+namespace vsplit {
 namespace {
+
+std::size_t count_self_intersections(const TriangleMesh& mesh) { return find_self_intersections(mesh)->size(); }
 
 TEST(SelfIntersectionsTest, ThereAreNoneInGoodMeshes) {
     for (const auto& [name, mesh] : test::small_meshes()) EXPECT_EQ(count_self_intersections(mesh), 0) << name;
@@ -17,7 +19,8 @@ TEST(SelfIntersectionsTest, CountsThePairsWhereOneTriangleCutsAnother) {
     mesh.positions = {{0, 0, 0}, {1, 0, 0},      {0, 1, 0},     {5, 0, 0},    {6, 0, 0},
                       {5, 1, 0}, {0.2, 0.2, -1}, {0.3, 0.2, 1}, {0.2, 0.3, 1}};
     mesh.faces = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
-    EXPECT_EQ(count_self_intersections(mesh), 1);
+    ASSERT_EQ(count_self_intersections(mesh), 1);
+    EXPECT_EQ((*find_self_intersections(mesh))[0], (std::array<std::uint32_t, 2>{0, 2}));
     mesh.faces = {{0, 1, 2}, {3, 4, 5}, {0, 7, 8}};
     EXPECT_EQ(count_self_intersections(mesh), 0) << "a common vertex is no intersection";
 }
@@ -36,4 +39,4 @@ TEST(SelfIntersectionsTest, FindsTwoCrossingSpheresInAnyOrder) {
 }
 
 }  // namespace
-}  // namespace vsplit::bench
+}  // namespace vsplit

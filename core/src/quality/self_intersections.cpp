@@ -1,16 +1,20 @@
-#include "quality/self_intersections.h"
+#include "vsplit/quality/self_intersections.h"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
-namespace vsplit::bench {
+namespace vsplit {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
 
 struct Face {
+    std::uint32_t index = 0;
     Triangle vertices{};
     Corners corners;
     Vec3 min;
@@ -63,28 +67,52 @@ bool intersect(const Face& s, const Face& t) {
 
 std::vector<Face> faces_along(const TriangleMesh& mesh, int axis) {
     std::vector<Face> faces;
-    for (const Triangle& t : mesh.faces) {
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const Triangle& t = mesh.faces[f];
         const Corners c{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
-        faces.push_back({t, c, c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2])});
+        faces.push_back({f, t, c, c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2])});
     }
     std::stable_sort(faces.begin(), faces.end(), [axis](const Face& l, const Face& r) { return l.min[axis] < r.min[axis]; });
     return faces;
 }
 
-}  // namespace
-
-std::size_t count_self_intersections(const TriangleMesh& mesh) {
-    int axis = 0;
-    const BoundingBox box = bounding_box(mesh);
-    (box.max - box.min).maxCoeff(&axis);
-    const std::vector<Face> faces = faces_along(mesh, axis);
-    std::size_t count = 0;
+/// How many pairs the sweep looks at: those that overlap along the axis.
+std::uint64_t count_pairs(const std::vector<Face>& faces, int axis) {
+    std::uint64_t pairs = 0;
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        for (std::size_t j = i + 1; j < faces.size() && faces[j].min[axis] <= faces[i].max[axis]; ++j) {
-            count += intersect(faces[i], faces[j]) ? 1 : 0;
-        }
+        const auto end = std::upper_bound(faces.begin() + static_cast<std::ptrdiff_t>(i), faces.end(), faces[i].max[axis],
+                                          [axis](double most, const Face& face) { return most < face.min[axis]; });
+        pairs += static_cast<std::uint64_t>(end - faces.begin()) - i - 1;
     }
-    return count;
+    return pairs;
 }
 
-}  // namespace vsplit::bench
+}  // namespace
+
+Expected<std::vector<FacePair>> find_self_intersections(const TriangleMesh& mesh) {
+    int axis = 0;
+    const BoundingBox box = bounding_box(mesh);
+    if (!box.empty()) (box.max - box.min).maxCoeff(&axis);
+    const std::vector<Face> faces = faces_along(mesh, axis);
+    if (const std::uint64_t pairs = count_pairs(faces, axis); pairs > kMostFacePairs) {
+        return Error{Cause::kLimitExceeded,
+                     "self-intersections were not looked for: " + std::to_string(pairs) +
+                         " pairs of faces overlap along the longest axis; up to " + std::to_string(kMostFacePairs) +
+                         " are searched",
+                     ""};
+    }
+    std::vector<std::vector<FacePair>> found(faces.size());  // a place of its own for each face
+    tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
+        for (std::size_t j = i + 1; j < faces.size() && faces[j].min[axis] <= faces[i].max[axis]; ++j) {
+            if (!intersect(faces[i], faces[j])) continue;
+            const auto [first, second] = std::minmax(faces[i].index, faces[j].index);
+            found[i].push_back({first, second});
+        }
+    });
+    std::vector<FacePair> pairs;
+    for (const std::vector<FacePair>& of_face : found) pairs.insert(pairs.end(), of_face.begin(), of_face.end());
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+}  // namespace vsplit

@@ -1,0 +1,192 @@
+#include "io/element_builder.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "io/mesh_builder.h"
+#include "io/text_lines.h"
+
+namespace vsplit {
+
+Status ElementBuilder::add_node(std::int64_t id, const Vec3& position, Place place) {
+    if (Status valid = check_position(position, place); !valid) return valid;
+    if (mesh_.positions.size() >= kMaxVertices) return read_error(Cause::kLimitExceeded, place, "too many nodes");
+    unit_ = place.unit;
+    nodes_.push_back({id, mesh_.vertex_count()});
+    node_places_.push_back(place.number);
+    mesh_.positions.push_back(position);
+    return Done{};
+}
+
+Status ElementBuilder::add_element(std::int64_t id, std::span<const std::int64_t> corners, Place place, std::uint32_t region) {
+    if (Status fits = check_face_limit(corners_.size() + corners.size() - 2, max_faces_, place); !fits) return fits;
+    unit_ = place.unit;
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+        corners_.push_back({{corners[0], corners[i - 1], corners[i]}, id, place.number});
+        mesh_.regions.push_back(region);
+    }
+    return Done{};
+}
+
+std::optional<std::size_t> ElementBuilder::find_set(const std::string& name) const {
+    const auto found = set_numbers_.find(upper_case(name));
+    return found == set_numbers_.end() ? std::nullopt : std::optional(found->second);
+}
+
+ElementBuilder::Set& ElementBuilder::set(const std::string& name) {
+    const auto [found, is_new] = set_numbers_.try_emplace(upper_case(name), sets_.size());
+    return is_new ? sets_.emplace_back(Set{name, {}, {}}) : sets_[found->second];
+}
+
+void ElementBuilder::add_to_set(const std::string& name, std::int64_t first, std::int64_t last, std::int64_t step, Place place) {
+    std::vector<Range>& ranges = set(name).ranges;
+    // One by one, as most files name them, elements that follow each other are one range.
+    if (first == last && !ranges.empty() && ranges.back().step == 1 && ranges.back().last + 1 == first) {
+        ranges.back().last = last;
+    } else {
+        ranges.push_back({first, last, step, place.number});
+    }
+}
+
+void ElementBuilder::add_set_to_set(const std::string& name, const std::string& other, Place place) {
+    set(name).others.emplace_back(other, place.number);
+}
+
+void ElementBuilder::name_region(const std::string& name, std::uint32_t region) {
+    for (FaceSet& named : mesh_.sets) {
+        if (named.name == name) return named.regions.push_back(region);
+    }
+    mesh_.sets.push_back({name, {region}});
+}
+
+Status ElementBuilder::sort_nodes() {
+    const auto by_id = [](const Node& l, const Node& r) { return std::pair(l.id, l.index) < std::pair(r.id, r.index); };
+    if (!std::is_sorted(nodes_.begin(), nodes_.end(), by_id)) std::sort(nodes_.begin(), nodes_.end(), by_id);
+    for (std::size_t i = 1; i < nodes_.size(); ++i) {
+        const Node& first = nodes_[i - 1];
+        const Node& second = nodes_[i];
+        if (first.id != second.id || mesh_.positions[first.index] == mesh_.positions[second.index]) continue;
+        return error_at(Cause::kMalformedInput, node_places_[second.index],
+                        "node " + std::to_string(second.id) + " is defined a second time, elsewhere; first at " +
+                            std::string(unit_) + " " + std::to_string(node_places_[first.index]));
+    }
+    return Done{};
+}
+
+std::optional<std::uint32_t> ElementBuilder::find_node(std::int64_t id) const {
+    // Most files number their nodes without gaps.
+    const std::int64_t guess = nodes_.empty() ? 0 : id - nodes_.front().id;
+    if (guess >= 0 && guess < static_cast<std::int64_t>(nodes_.size()) && nodes_[static_cast<std::size_t>(guess)].id == id)
+        return nodes_[static_cast<std::size_t>(guess)].index;
+    const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), id, [](const Node& n, std::int64_t i) { return n.id < i; });
+    return found == nodes_.end() || found->id != id ? std::nullopt : std::optional(found->index);
+}
+
+Status ElementBuilder::number_corners() {
+    mesh_.faces.reserve(corners_.size());
+    for (const Corner& corner : corners_) {
+        Triangle& face = mesh_.faces.emplace_back();
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::optional<std::uint32_t> index = find_node(corner.nodes[i]);
+            if (!index) {
+                return error_at(Cause::kIndexOutOfRange, corner.place,
+                                "element " + std::to_string(corner.element) + " names node " + std::to_string(corner.nodes[i]) +
+                                    ", which the file does not define");
+            }
+            face[i] = *index;
+        }
+    }
+    return Done{};
+}
+
+Status ElementBuilder::collect_members(std::size_t number, std::vector<std::size_t>& members) const {
+    if (std::find(members.begin(), members.end(), number) != members.end()) return Done{};
+    members.push_back(number);
+    const Set& s = sets_[number];
+    for (const auto& [name, place] : s.others) {
+        const std::optional<std::size_t> other = find_set(name);
+        if (!other) {
+            return error_at(Cause::kMalformedInput, place,
+                            "set " + quoted(s.name) + " names the set " + quoted(name) + ", which the file does not define");
+        }
+        if (Status inner = collect_members(*other, members); !inner) return inner;
+    }
+    return Done{};
+}
+
+void ElementBuilder::sort_elements() {
+    for (std::uint32_t f = 0; f < corners_.size(); ++f) {
+        if (f == 0 || corners_[f].element != corners_[f - 1].element) elements_.push_back({corners_[f].element, f});
+    }
+    std::stable_sort(elements_.begin(), elements_.end(), [](const Node& l, const Node& r) { return l.id < r.id; });
+}
+
+Status ElementBuilder::put_into_set(const Range& range, std::uint32_t number) {
+    constexpr std::uint64_t kMostMemberships = 100'000'000;  // also what hostile sets that hold each other come to
+    auto at = std::lower_bound(elements_.begin(), elements_.end(), range.first,
+                               [](const Node& n, std::int64_t id) { return n.id < id; });
+    for (; at != elements_.end() && at->id <= range.last; ++at) {
+        if (++memberships_ > kMostMemberships)
+            return error_at(Cause::kLimitExceeded, range.place, "the sets of the file have over 100 million members");
+        if ((at->id - range.first) % range.step != 0) continue;
+        for (std::uint32_t f = at->index; f < corners_.size() && corners_[f].element == at->id; ++f) {
+            if (sets_of_[f].empty() || sets_of_[f].back() != number) sets_of_[f].push_back(number);
+        }
+    }
+    return Done{};
+}
+
+Status ElementBuilder::fill_sets() {
+    sets_of_.resize(corners_.size());
+    for (std::uint32_t number = 0; number < sets_.size(); ++number) {
+        std::vector<std::size_t> members;
+        if (Status collected = collect_members(number, members); !collected) return collected;
+        for (const std::size_t member : members) {
+            for (const Range& range : sets_[member].ranges) {
+                if (Status put = put_into_set(range, number); !put) return put;
+            }
+        }
+    }
+    return Done{};
+}
+
+void ElementBuilder::make_regions() {
+    std::map<std::vector<std::uint32_t>, std::uint32_t> regions{{{}, 0}};
+    mesh_.sets.clear();
+    for (const Set& s : sets_) mesh_.sets.push_back({s.name, {}});
+    for (std::uint32_t f = 0; f < corners_.size(); ++f) {
+        const auto [region, is_new] = regions.try_emplace(sets_of_[f], static_cast<std::uint32_t>(regions.size()));
+        mesh_.regions[f] = region->second;
+        if (!is_new) continue;
+        for (const std::uint32_t number : sets_of_[f]) mesh_.sets[number].regions.push_back(region->second);
+    }
+}
+
+/// Regions that no face has, and sets of none; and where no face has a region at all, the regions.
+void ElementBuilder::drop_empty_regions() {
+    const std::set<std::uint32_t> used(mesh_.regions.begin(), mesh_.regions.end());
+    for (FaceSet& s : mesh_.sets) std::erase_if(s.regions, [&](std::uint32_t region) { return used.count(region) == 0; });
+    std::erase_if(mesh_.sets, [](const FaceSet& s) { return s.regions.empty(); });
+    if (mesh_.sets.empty() && used.size() <= 1 && used.count(0) == used.size()) mesh_.regions.clear();
+}
+
+Expected<TriangleMesh> ElementBuilder::take() {
+    if (corners_.empty() && solids_ > 0) {
+        return Error{Cause::kUnsupported,
+                     "the file has " + std::to_string(solids_) +
+                         " solid elements and no triangle or quadrilateral; a surface mesh is needed",
+                     ""};
+    }
+    if (Status sorted = sort_nodes(); !sorted) return sorted.error();
+    if (Status numbered = number_corners(); !numbered) return numbered.error();
+    if (!sets_.empty()) {
+        sort_elements();
+        if (Status filled = fill_sets(); !filled) return filled.error();
+        make_regions();
+    }
+    drop_empty_regions();
+    return std::move(mesh_);
+}
+
+}  // namespace vsplit

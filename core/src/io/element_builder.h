@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/read_error.h"
+#include "vsplit/base/expected.h"
+#include "vsplit/mesh/triangle_mesh.h"
+
+namespace vsplit {
+
+/// The largest number of a node or an element: differences of two fit an integer.
+inline constexpr std::int64_t kLargestId = std::int64_t{1} << 62;
+
+/// Collects a mesh whose nodes and elements have numbers of their own, in any order and with gaps, as solvers have them, and
+/// whose elements belong to any number of named sets.
+class ElementBuilder {
+public:
+    explicit ElementBuilder(std::uint32_t max_faces) : max_faces_(max_faces) {}
+
+    /// \return INVALID_COORDINATE.
+    [[nodiscard]] Status add_node(std::int64_t id, const Vec3& position, Place place);
+
+    /// A flat element by its corners (mid-side nodes are the caller's to leave out); 4 and more are cut into a fan.
+    /// \return LIMIT_EXCEEDED. `region`: see take.
+    [[nodiscard]] Status add_element(std::int64_t id, std::span<const std::int64_t> corners, Place place,
+                                     std::uint32_t region = 0);
+
+    /// An element with a volume: it has no place in a surface mesh. Files with nothing else are refused.
+    void skip_solid() { ++solids_; }
+
+    /// Elements `first` to `last` are in the set.
+    void add_to_set(const std::string& name, std::int64_t first, std::int64_t last, std::int64_t step, Place place);
+    /// The elements of another set are in the set, those it gets later too.
+    void add_set_to_set(const std::string& name, const std::string& other, Place place);
+
+    /// Names a region given with elements.
+    void name_region(const std::string& name, std::uint32_t region);
+
+    /// The mesh. Where sets have members, faces that are in the same sets are a region, numbered from 1 in order of their first
+    /// face, and 0 are those in none; else regions are those given with the elements, none when all are 0.
+    /// \return INDEX_OUT_OF_RANGE for a node that does not exist; MALFORMED_INPUT for a node that is defined twice in different
+    /// places or an unknown set; UNSUPPORTED for a file of solids; LIMIT_EXCEEDED.
+    [[nodiscard]] Expected<TriangleMesh> take();
+
+private:
+    struct Node {
+        std::int64_t id = 0;
+        std::uint32_t index = 0;
+    };
+    struct Corner {
+        std::array<std::int64_t, 3> nodes{};
+        std::int64_t element = 0;
+        std::size_t place = 0;
+    };
+    struct Range {
+        std::int64_t first = 0;
+        std::int64_t last = 0;
+        std::int64_t step = 1;
+        std::size_t place = 0;
+    };
+    struct Set {
+        std::string name;
+        std::vector<Range> ranges;
+        std::vector<std::pair<std::string, std::size_t>> others;  // and where each is named
+    };
+
+    [[nodiscard]] Set& set(const std::string& name);
+    [[nodiscard]] std::optional<std::size_t> find_set(const std::string& name) const;
+    [[nodiscard]] Status sort_nodes();
+    [[nodiscard]] std::optional<std::uint32_t> find_node(std::int64_t id) const;
+    [[nodiscard]] Status number_corners();
+    [[nodiscard]] Status collect_members(std::size_t set, std::vector<std::size_t>& members) const;
+    void sort_elements();
+    [[nodiscard]] Status put_into_set(const Range& range, std::uint32_t number);
+    [[nodiscard]] Status fill_sets();
+    void make_regions();
+    void drop_empty_regions();
+    [[nodiscard]] Error error_at(Cause cause, std::size_t place, const std::string& what) const {
+        return read_error(cause, {unit_, place}, what);
+    }
+
+    std::uint32_t max_faces_;
+    std::string_view unit_ = "line";
+    TriangleMesh mesh_;
+    std::vector<Node> nodes_;
+    std::vector<std::size_t> node_places_;
+    std::vector<Corner> corners_;
+    std::vector<Node> elements_;  // id and first face, ascending by id
+    std::vector<Set> sets_;
+    std::map<std::string, std::size_t> set_numbers_;   // by name in upper case
+    std::vector<std::vector<std::uint32_t>> sets_of_;  // of each face, ascending
+    std::uint64_t memberships_ = 0;
+    std::uint64_t solids_ = 0;
+};
+
+}  // namespace vsplit

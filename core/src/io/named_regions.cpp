@@ -1,0 +1,60 @@
+#include "io/named_regions.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include "io/text_lines.h"
+
+namespace vsplit {
+namespace {
+
+std::string solver_name(const std::string& name, std::set<std::string>& taken) {
+    std::string good = name;
+    for (char& c : good) {
+        const bool keeps = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
+        if (!keeps) c = '_';
+    }
+    if (good.empty() || std::isalpha(static_cast<unsigned char>(good.front())) == 0) good.insert(0, "S_");
+    std::string different = good;
+    for (int number = 2; !taken.insert(upper_case(different)).second; ++number) different = good + "_" + std::to_string(number);
+    return different;
+}
+
+}  // namespace
+
+std::vector<NamedRegion> named_regions(const TriangleMesh& mesh) {
+    std::map<std::uint32_t, NamedRegion> regions;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const std::uint32_t region = mesh.regions.empty() ? 0 : mesh.regions[f];
+        regions[region].faces.push_back(f);
+    }
+    for (const FaceSet& s : mesh.sets) {
+        const auto found = s.regions.size() == 1 ? regions.find(s.regions.front()) : regions.end();
+        if (found == regions.end() || found->second.has_name) continue;
+        found->second.name = s.name;
+        found->second.has_name = true;
+    }
+    std::vector<NamedRegion> result;
+    for (auto& [id, region] : regions) {
+        region.region = id;
+        if (!region.has_name) region.name = mesh.regions.empty() ? "all" : "region_" + std::to_string(id);
+        result.push_back(std::move(region));
+    }
+    return result;
+}
+
+std::vector<FaceSet> sets_for_solvers(const TriangleMesh& mesh) {
+    std::vector<FaceSet> sets = mesh.sets;
+    std::set<std::uint32_t> named{0};
+    for (const FaceSet& s : sets) named.insert(s.regions.begin(), s.regions.end());
+    for (const NamedRegion& region : named_regions(mesh)) {
+        if (named.count(region.region) == 0) sets.push_back({region.name, {region.region}});
+    }
+    std::set<std::string> taken;
+    for (FaceSet& s : sets) s.name = solver_name(s.name, taken);
+    return sets;
+}
+
+}  // namespace vsplit

@@ -1,0 +1,63 @@
+#include "repair/changes.h"
+
+#include <string>
+#include <utility>
+
+#include "base/number_text.h"
+
+namespace vsplit {
+namespace {
+
+std::string_view what_changed(Finding::Kind kind) {
+    switch (kind) {
+        case Finding::Kind::kMergedVertex:
+            return "vertices were merged with one nearby";
+        case Finding::Kind::kDroppedFace:
+            return "faces with two equal corners were dropped";
+        case Finding::Kind::kFlattenedFace:
+            return "faces without area were flipped or contracted away";
+        case Finding::Kind::kDroppedDuplicate:
+            return "faces on the same three vertices as another were dropped";
+        case Finding::Kind::kStitchedVertex:
+            return "vertices of borders were joined to a border nearby";
+        case Finding::Kind::kTurnedFace:
+            return "faces were turned to agree with their neighbours";
+        case Finding::Kind::kSplitEdge:
+            return "edges with more than two faces, or faces that disagree, were cut apart";
+        case Finding::Kind::kSplitVertex:
+            return "vertices with more than one fan of faces were cut apart";
+        case Finding::Kind::kDroppedSpeck:
+            return "pieces were dropped for being small";
+        case Finding::Kind::kFilledHole:
+            return "holes were filled";
+        default:
+            return "changes were made";
+    }
+}
+
+std::string place_text(const Vec3& p) {
+    return "(" + number_text(p.x()) + ", " + number_text(p.y()) + ", " + number_text(p.z()) + ")";
+}
+
+}  // namespace
+
+void Changes::add(Finding::Kind kind, const Vec3& place, std::uint32_t face) {
+    Finding& finding = findings_[kind];
+    finding.kind = kind;
+    ++finding.count;
+    finding.places.push_back(place);
+    if (face != kNoFace && finding.elements.size() < Finding::kExamples) finding.elements.push_back(face);
+}
+
+std::vector<Finding> Changes::take() {
+    std::vector<Finding> all;
+    for (auto& [kind, finding] : findings_) {
+        finding.message = std::to_string(finding.count) + " " + std::string(what_changed(kind)) + "; first at " +
+                          place_text(finding.places.front());
+        all.push_back(std::move(finding));
+    }
+    findings_.clear();
+    return all;
+}
+
+}  // namespace vsplit

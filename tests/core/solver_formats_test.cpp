@@ -1,0 +1,290 @@
+// What solvers and mesh generators read and write: regions and sets on the way, the many layouts, and what is said of broken
+// files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "tests/core/meshes.h"
+#include "tests/core/random.h"
+#include "vsplit/io/read_mesh.h"
+#include "vsplit/io/write_mesh.h"
+
+namespace vsplit::test {
+namespace {
+
+Expected<ReadResult> read(const std::string& bytes, const ReadOptions& options = {}) {
+    return read_mesh(std::as_bytes(std::span(bytes)), options);
+}
+
+TriangleMesh must_read(const std::string& bytes) {
+    Expected<ReadResult> result = read(bytes);
+    EXPECT_TRUE(result) << result.error().message;
+    return result ? std::move(result->mesh) : TriangleMesh();
+}
+
+/// A torus in three regions with names, and a set of two of them.
+TriangleMesh grouped_torus() {
+    TriangleMesh mesh = torus(18, 9);
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) mesh.regions.push_back(1 + f * 3 / mesh.face_count());
+    mesh.sets = {{"inlet", {1}}, {"wall", {2}}, {"outlet", {3}}, {"ends", {1, 3}}};
+    return mesh;
+}
+
+/// The faces of each set, whatever the regions are called.
+std::map<std::string, std::vector<std::uint32_t>> members(const TriangleMesh& mesh) {
+    std::map<std::string, std::vector<std::uint32_t>> sets;
+    for (const FaceSet& set : mesh.sets) {
+        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+            if (std::find(set.regions.begin(), set.regions.end(), mesh.regions[f]) != set.regions.end())
+                sets[set.name].push_back(f);
+        }
+    }
+    return sets;
+}
+
+TEST(SolverFormatsTest, RegionsComeBackFromEveryFormatThatHasThem) {
+    const TriangleMesh mesh = grouped_torus();
+    for (const MeshFormat format :
+         {MeshFormat::kMsh, MeshFormat::kMshAscii, MeshFormat::kMsh2, MeshFormat::kMsh2Ascii, MeshFormat::kInp, MeshFormat::kBdf,
+          MeshFormat::kVtk, MeshFormat::kVtkAscii, MeshFormat::kVtu}) {
+        const TriangleMesh same = must_read(write_mesh(mesh, format));
+        EXPECT_EQ(same.faces, mesh.faces) << format_name(format);
+        EXPECT_EQ(same.regions, mesh.regions) << format_name(format);
+        EXPECT_EQ(write_mesh(same, format), write_mesh(must_read(write_mesh(same, format)), format)) << format_name(format);
+    }
+}
+
+TEST(SolverFormatsTest, SetsComeBackFromFormatsThatNameThem) {
+    const TriangleMesh mesh = grouped_torus();
+    for (const MeshFormat format : {MeshFormat::kMsh, MeshFormat::kMshAscii, MeshFormat::kInp}) {
+        EXPECT_EQ(members(must_read(write_mesh(mesh, format))), members(mesh)) << format_name(format);
+    }
+    std::map<std::string, std::vector<std::uint32_t>> parts = members(mesh);
+    parts.erase("ends");  // one region a face, and its name, is all that these know
+    for (const MeshFormat format : {MeshFormat::kMsh2, MeshFormat::kMsh2Ascii, MeshFormat::kBdf}) {
+        EXPECT_EQ(members(must_read(write_mesh(mesh, format))), parts) << format_name(format);
+    }
+}
+
+TEST(SolverFormatsTest, BulkDataKeepElevenDigits) {
+    TriangleMesh mesh = bumpy_sphere(2, 0.1, 3);
+    Random random(5);
+    for (Vec3& p : mesh.positions) p *= std::pow(10, random.uniform(-12, 12));
+    const TriangleMesh same = must_read(write_mesh(mesh, MeshFormat::kBdf));
+    ASSERT_EQ(same.positions.size(), mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_LE(std::abs(same.positions[v][axis] - mesh.positions[v][axis]), 5e-11 * std::abs(mesh.positions[v][axis]));
+    }
+    EXPECT_NE(write_mesh(cube(), MeshFormat::kBdf).find("GRID*   1                               0."), std::string::npos);
+}
+
+constexpr const char* kInpNodes = "*NODE\n1, 0, 0, 0\n2, 1, 0\n3, 0, 1.\n7, 1, 1, 0\n";
+
+TEST(SolverFormatsTest, InputDecksInTheirManyLayouts) {
+    const std::string nodes = kInpNodes;
+    const TriangleMesh two{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}};
+    for (const std::string& text : {"*HEADING\nany text, 1\n" + nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n2, 2, 7, 3\n",
+                                    "** comment\n*Element, type = s3r\n1, 1, 2, 3,\n2, 2, 7, 3\n" + nodes,
+                                    nodes + "*ELEMENT,TYPE=CPS3\n1,\n1, 2,\n3\n2, 2, 7, 3\n",
+                                    nodes + "*ELEMENT, TYPE=C3D4\n9, 1, 2, 3, 7\n*ELEMENT, TYPE=M3D3\n1, 1, 2, 3\n2, 2, 7, "
+                                            "3\n*MATERIAL, NAME=x\n*ELASTIC\n1, 2\n",
+                                    nodes + "*ELEMENT, TYPE=S6\n1, 1, 2, 3, 91, 92, 93\n2, 2, 7, 3, 94, 95, 96\n"}) {
+        const TriangleMesh mesh = must_read(text);
+        EXPECT_EQ(mesh, two) << text;
+    }
+    EXPECT_EQ(must_read(nodes + "*ELEMENT, TYPE=S4\n1, 1, 2, 7, 3\n").faces, (std::vector<Triangle>{{0, 1, 3}, {0, 3, 2}}));
+}
+
+TEST(SolverFormatsTest, SetsOfInputDecks) {
+    const std::string elements =
+        std::string(kInpNodes) + "*ELEMENT, TYPE=S3, ELSET=a\n5, 1, 2, 3\n*ELEMENT, TYPE=S3\n6, 2, 7, 3\n";
+    using Sets = std::map<std::string, std::vector<std::uint32_t>>;
+    EXPECT_EQ(members(must_read(elements)), (Sets{{"a", {0}}}));
+    EXPECT_EQ(members(must_read(elements + "*ELSET, ELSET=b, GENERATE\n1, 100, 5\n*ELSET, ELSET=c\nA, 6\n")),
+              (Sets{{"a", {0}}, {"b", {1}}, {"c", {0, 1}}}));
+    EXPECT_EQ(members(must_read(elements + "*SURFACE, NAME=s, TYPE=ELEMENT\na, SPOS\n6, S1\n")),
+              (Sets{{"a", {0}}, {"s", {0, 1}}}));
+    EXPECT_EQ(members(must_read(elements + "*ELSET, ELSET=x\ny\n*ELSET, ELSET=y\nx, 6\n")),
+              (Sets{{"a", {0}}, {"x", {1}}, {"y", {1}}}));
+}
+
+TEST(SolverFormatsTest, BulkDataInSmallLargeAndFreeFields) {
+    const TriangleMesh one{{{0, 0, 0}, {1.5, 0, 0}, {0, 0.025, -300}}, {{0, 1, 2}}};
+    for (const std::string& text :
+         {std::string(
+              "BEGIN BULK\nGRID           1              0.      0.      0.\nGRID           2             1.5      0.      0.\n"
+              "GRID           3              0.   2.5-2   -3.+2\nCTRIA3         4       1       1       2       3\nENDDATA\n"),
+          std::string("GRID*                  1                              0.              0.*G1\n*G1                   0.\n"
+                      "GRID*                  2                         1.5D+00              0.*G2\n*G2                   0.\n"
+                      "GRID*                  3                              0.          .025E0*G3\n*G3              -3.D2\n"
+                      "CTRIA3*                4               1               1               2\n*                      3\n"),
+          std::string("$ free\nGRID,1,,0.,0.,0.\nGRID,2,0,1.5,,\nGRID,3,,0.,2.5e-2,-300.\nCTRIA6,4,1,1,2,3,11,12,+\n+,13\n"
+                      "CHEXA,9,1,1,2,3,4,5,6,+\n+,7,8\n")}) {
+        EXPECT_EQ(must_read(text), one) << text;
+    }
+    const TriangleMesh named = must_read(
+        "$HMNAME COMP                   3\"flange\"\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,1.,1.,0.\n"
+        "CQUAD4,1,3,1,2,4,3\nCTRIA3,2,8,1,2,3\n");
+    EXPECT_EQ(named.regions, (std::vector<std::uint32_t>{3, 3, 8}));
+    EXPECT_EQ(named.sets, (std::vector<FaceSet>{{"flange", {3}}}));
+}
+
+TEST(SolverFormatsTest, GmshFilesWithMoreThanTriangles) {
+    const std::string text =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 5 \"edge\"\n2 7 \"face of it\"\n$EndPhysicalNames\n"
+        "$Nodes\n4\n10 0 0 0\n20 1 0 0\n30 1 1 0\n40 0 1 0\n$EndNodes\n$Elements\n4\n1 15 2 0 1 10\n2 1 2 5 1 10 20\n"
+        "3 3 2 7 1 10 20 30 40\n4 2 3 0 1 0 10 20 30\n$EndElements\n$Periodic\n0\n$EndPeriodic\n";
+    const TriangleMesh mesh = must_read(text);
+    EXPECT_EQ(mesh.faces, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
+    EXPECT_EQ(mesh.regions, (std::vector<std::uint32_t>{7, 7, 0}));
+    EXPECT_EQ(mesh.sets, (std::vector<FaceSet>{{"face of it", {7}}}));
+}
+
+TEST(SolverFormatsTest, VtkFilesInTheirManyLayouts) {
+    const TriangleMesh two{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}};
+    const std::string points = "POINTS 4 float\n0 0 0 1 0 0 0 1 0 1 1 0\n";
+    const std::string head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET ";
+    for (const std::string& text :
+         {head + "POLYDATA\n" + points + "POLYGONS 2 8\n3 0 1 2\n3 1 3 2\n",
+          head + "POLYDATA\n" + points + "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2 3 1 3 2\nPOINT_DATA 4\nSCALARS a float\n",
+          head + "UNSTRUCTURED_GRID\n" + points + "CELLS 3 11\n2 0 1\n3 0 1 2\n3 1 3 2\nCELL_TYPES 3\n3 5 5\n",
+          head + "UNSTRUCTURED_GRID\n" + points +
+              "METADATA\nINFORMATION 0\n\nCELLS 3 6\nOFFSETS vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 1 3 "
+              "2\nCELL_TYPES 2\n5\n5\n"}) {
+        EXPECT_EQ(must_read(text), two) << text;
+    }
+    EXPECT_EQ(must_read(head + "POLYDATA\n" + points +
+                        "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2\n3 1 3 2\nCELL_DATA 3\n"
+                        "FIELD f 2\nother 2 3 float\n1 2 3 4 5 6\nPhysicalIds 1 3 int\n9 4 5\n")
+                  .regions,
+              (std::vector<std::uint32_t>{4, 5}));
+    const std::string vtu =
+        "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" "
+        "NumberOfCells=\"2\">\n<PointData>\n<DataArray type=\"Float32\" Name=\"n\" format=\"ascii\">1 2 3 "
+        "4</DataArray></PointData>"
+        "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 1 1 "
+        "0</DataArray></Points>"
+        "<Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2\n1 3 2</DataArray>"
+        "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3 6</DataArray>"
+        "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5 5</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
+    EXPECT_EQ(must_read(vtu), two);
+    // Base64 of a length of 2 bytes and the bytes 5 5.
+    std::string base64 = vtu;
+    base64.replace(base64.find("format=\"ascii\">5 5"), 18, "format=\"binary\">AgAAAAUF");
+    EXPECT_EQ(must_read(base64), two);
+}
+
+struct Broken {
+    std::string text;
+    Cause cause;
+    std::string says;
+};
+
+TEST(SolverFormatsTest, BrokenFilesAreErrorsThatSayWhere) {
+    const std::string nodes = kInpNodes;
+    const std::string grids = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n";
+    const std::string msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n";
+    const std::string vtk =
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n";
+    const std::vector<Broken> all{
+        {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 99\n", Cause::kIndexOutOfRange, "line 7: element 1 names node 99"},
+        {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2\n*END\n", Cause::kMalformedInput,
+         "line 7: element 1 of type 'S3' ends after 2 nodes"},
+        {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3, 7\n", Cause::kMalformedInput, "line 7: element 1 of type 'S3' has 4 nodes"},
+        {nodes + "*ELEMENT, TYPE=S3\n1, 1, two, 3\n", Cause::kMalformedInput, "line 7: expected a node's number, found 'two'"},
+        {nodes + "*ELEMENT\n1, 1, 2, 3\n", Cause::kMalformedInput, "line 6: *ELEMENT needs a TYPE"},
+        {nodes + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 7\n", Cause::kUnsupported, "1 solid elements and no triangle"},
+        {"*NODE\n1, 0, x, 0\n", Cause::kMalformedInput, "line 2: expected a coordinate, found 'x'"},
+        {"*NODE\n1, 0, nan, 0\n", Cause::kInvalidCoordinate, "line 2"},
+        {nodes + "*NODE\n2, 5, 5, 5\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n", Cause::kMalformedInput,
+         "line 7: node 2 is defined a second"},
+        {nodes + "*INCLUDE, INPUT=x\n", Cause::kUnsupported, "line 6: *INCLUDE"},
+        {nodes + "*PART, NAME=a\n*END PART\n*PART, NAME=b\n", Cause::kUnsupported, "line 8: a second *PART"},
+        {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n*ELSET, ELSET=s\nnone\n", Cause::kMalformedInput,
+         "line 9: set 's' names the set 'none'"},
+        {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n*ELSET\n1\n", Cause::kMalformedInput, "line 8: a set needs a name"},
+        {nodes + "*ELSET, ELSET=s, GENERATE\n1, 2, 0\n", Cause::kMalformedInput, "line 7: expected a step"},
+        {nodes, Cause::kEmptyInput, "no face"},
+        {grids + "CTRIA3,1,1,1,2,9\n", Cause::kIndexOutOfRange, "line 4: element 1 names node 9"},
+        {grids + "CTRIA3,1,1,1,2\n", Cause::kMalformedInput, "line 4: CTRIA3: expected a grid point's number in field 6"},
+        {grids + "CTRIA3,x,1,1,2,3\n", Cause::kMalformedInput,
+         "line 4: CTRIA3: expected an element's number in field 2, found 'x'"},
+        {"GRID,1,,zero,0.,0.\n", Cause::kMalformedInput, ""},
+        {"GRID,1,4,0.,0.,0.\nCTRIA3,1,1,1,1,1\n", Cause::kUnsupported,
+         "line 1: GRID: grid point 1 is given in coordinate system '4'"},
+        {grids + "CTETRA,1,1,1,2,3,4\n", Cause::kUnsupported, "1 solid elements"},
+        {"$MeshFormat\n3 0 8\n$EndMeshFormat\n", Cause::kUnsupported, "line 2: version 3 is not read"},
+        {"$MeshFormat\n2.2 0 8\n$EndMesh\n", Cause::kMalformedInput, "line 3: expected '$EndMeshFormat', found '$EndMesh'"},
+        {msh + "$Elements\n1\n1 2 2 0 0 1 2 9\n$EndElements\n", Cause::kIndexOutOfRange, "line 12: element 1 names node 9"},
+        {msh + "$Elements\n1\n1 77 2 0 0 1 2 3\n$EndElements\n", Cause::kUnsupported, "line 12: elements of type 77"},
+        {msh + "$Elements\n2\n1 2 2 0 0 1 2 3\n$EndElements\n", Cause::kMalformedInput,
+         "line 13: expected an element's number, found '$EndElements'"},
+        {msh + "$Elements\n1\n1 2 2 0 0 1 2", Cause::kTruncatedInput, "line 12: the file ends where a node of an element"},
+        {msh + "$Unknown\n1 2 3\n", Cause::kTruncatedInput, "the file ends before '$EndUnknown'"},
+        {msh + "Elements\n", Cause::kMalformedInput, "line 10: expected the name of a section, found 'Elements'"},
+        {vtk + "CELLS 1 4\n3 0 1 5\nCELL_TYPES 1\n5\n", Cause::kIndexOutOfRange, "element 0 names node 5"},
+        {vtk + "CELLS 1 4\n4 0 1 2\nCELL_TYPES 1\n5\n", Cause::kMalformedInput,
+         "line 8: cell 0 is to have 4 points, but 3 numbers follow"},
+        {vtk + "CELLS 2 4\n3 0 1 2\nCELL_TYPES 1\n5\n", Cause::kMalformedInput,
+         "line 8: 2 cells are announced, but the numbers make 1"},
+        {vtk + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n99\n", Cause::kUnsupported, "cell 0 is of type 99"},
+        {vtk + "CELLS 1 5\n4 0 1 2 2\nCELL_TYPES 1\n10\n", Cause::kUnsupported, "1 solid elements"},
+        {vtk + "CELLS 1 4\n3 0 one 2\n", Cause::kMalformedInput, "line 8: expected a point of a cell, found 'one'"},
+        {"# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n", Cause::kUnsupported,
+         "line 4: a dataset of 'STRUCTURED_POINTS'"},
+        {"<VTKFile type=\"PolyData\">\n", Cause::kUnsupported, "line 1: a file of type 'PolyData'"},
+        {"<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\">", Cause::kUnsupported,
+         "'vtkLZ4DataCompressor' is not read"},
+        {"<VTKFile type=\"UnstructuredGrid\">\n<Piece", Cause::kTruncatedInput, "line 2: the file ends within the tag 'Piece'"},
+        {"<VTKFile type=\"UnstructuredGrid\">\n<Points>\n</Points></VTKFile>", Cause::kMalformedInput, "the file has no Points"},
+    };
+    for (const auto& [text, cause, says] : all) {
+        const Expected<ReadResult> result = read(text);
+        ASSERT_FALSE(result) << text;
+        EXPECT_EQ(cause_name(result.error().cause), cause_name(cause)) << text << result.error().message;
+        EXPECT_NE(result.error().message.find(says), std::string::npos) << text << "\n" << result.error().message;
+    }
+}
+
+TEST(SolverFormatsTest, AFileThatIsCutOffIsNeverTakenForAWhole) {
+    const TriangleMesh mesh = grouped_torus();
+    for (const MeshFormat format : {MeshFormat::kMsh, MeshFormat::kMshAscii, MeshFormat::kMsh2, MeshFormat::kMsh2Ascii,
+                                    MeshFormat::kVtu, MeshFormat::kVtk}) {
+        const std::string bytes = write_mesh(mesh, format);
+        // Behind the faces come only regions (VTK), whose absence nothing announces, and ends of tags.
+        const std::size_t whole = format == MeshFormat::kVtk ? bytes.find("CELL_DATA") : bytes.size() - 40;
+        for (std::size_t size = 60; size < whole; size += 97) {
+            EXPECT_FALSE(read(bytes.substr(0, size))) << format_name(format) << " at " << size << " of " << bytes.size();
+        }
+    }
+}
+
+TEST(SolverFormatsTest, NoDamageDoesMoreThanAnError) {
+    const TriangleMesh mesh = grouped_torus();
+    Random random(11);
+    for (const MeshFormat format : mesh_formats()) {
+        const std::string good = write_mesh(mesh, format);
+        for (int trial = 0; trial < 200; ++trial) {
+            std::string bad = good;
+            for (int i = 0; i < 3; ++i) {
+                const std::size_t at = random.below(static_cast<std::uint32_t>(trial % 2 == 0 ? bad.size() : 400));
+                bad[at] = static_cast<char>(random.below(256));
+            }
+            const Expected<ReadResult> result = read(bad, {.format = {}, .weld = 0, .max_faces = 100'000});
+            if (!result) {
+                EXPECT_FALSE(result.error().message.empty());
+                continue;
+            }
+            for (const Triangle& face : result->mesh.faces) {
+                for (const std::uint32_t v : face) EXPECT_LT(v, result->mesh.vertex_count());
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace vsplit::test
