@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "features/mean_edge.h"
+#include "mesh/disjoint_sets.h"
 #include "mesh/half_edges.h"
 
 namespace vsplit {
@@ -15,32 +15,25 @@ namespace {
 class Chains {
 public:
     Chains(const TriangleMesh& mesh, const std::vector<SharpEdge>& edges)
-        : leader_(mesh.positions.size()), length_(mesh.positions.size(), 0), loops_(mesh.positions.size(), false) {
-        std::iota(leader_.begin(), leader_.end(), 0U);
+        : joined_(mesh.positions.size()), length_(mesh.positions.size(), 0), loops_(mesh.positions.size(), false) {
         for (const SharpEdge& edge : edges) join(edge.a, edge.b);
         for (const SharpEdge& edge : edges) {
-            length_[leader(edge.a)] += (mesh.positions[edge.a] - mesh.positions[edge.b]).norm();
+            length_[joined_.find(edge.a)] += (mesh.positions[edge.a] - mesh.positions[edge.b]).norm();
         }
     }
 
-    [[nodiscard]] double length(std::uint32_t vertex) { return length_[leader(vertex)]; }
-    [[nodiscard]] bool loops(std::uint32_t vertex) { return loops_[leader(vertex)]; }
+    [[nodiscard]] double length(std::uint32_t vertex) { return length_[joined_.find(vertex)]; }
+    [[nodiscard]] bool loops(std::uint32_t vertex) { return loops_[joined_.find(vertex)]; }
 
 private:
-    std::uint32_t leader(std::uint32_t v) {
-        while (leader_[v] != v) v = leader_[v] = leader_[leader_[v]];
-        return v;
-    }
-
     void join(std::uint32_t a, std::uint32_t b) {
-        a = leader(a);
-        b = leader(b);
-        const std::uint32_t first = std::min(a, b);
-        loops_[first] = a == b || loops_[a] || loops_[b];
-        leader_[std::max(a, b)] = first;
+        const std::uint32_t of_a = joined_.find(a), of_b = joined_.find(b);
+        const bool loops = of_a == of_b || loops_[of_a] || loops_[of_b];
+        joined_.join(a, b);
+        loops_[joined_.find(a)] = loops;
     }
 
-    std::vector<std::uint32_t> leader_;
+    DisjointSets joined_;
     std::vector<double> length_;
     std::vector<bool> loops_;
 };

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "quality/flip_bend.h"
 #include "spatial/shapes.h"
 #include "vsplit/quality/stretch.h"
 
@@ -14,7 +15,6 @@ namespace vsplit {
 namespace {
 
 constexpr double kLeastNormalCosine = 0.2;  // a fold is more, as for collapses
-constexpr double kLeastFlipCosine = 0.9;    // a flip bends the surface no more, as FlipQuad has it
 constexpr std::size_t kMostFaces = 64;      // around a vertex that may go, as for collapses
 
 class Mender {

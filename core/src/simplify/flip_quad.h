@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "quality/face_bounds.h"
+#include "quality/flip_bend.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
@@ -38,11 +39,9 @@ struct FlipQuad {
     [[nodiscard]] double least_stretch() const { return std::min(left.stretch, right.stretch); }
     [[nodiscard]] double least_stretch_before() const { return std::min(Face(pa, pb, pc).stretch, Face(pb, pa, pd).stretch); }
 
-    /// Neither new face turns away from either old one by more than 26 degrees.
     [[nodiscard]] bool normals_stay() const {
-        constexpr double kLeastNormalCosine = 0.9;
         return std::min({left.normal.dot(normal_before), left.normal.dot(twin_normal_before), right.normal.dot(normal_before),
-                         right.normal.dot(twin_normal_before)}) >= kLeastNormalCosine;
+                         right.normal.dot(twin_normal_before)}) >= kLeastFlipCosine;
     }
 
     /// Whether the two diagonals pass each other within `gap`: what the flip moves the surface by.

@@ -23,8 +23,8 @@ struct InsideSize {
         std::uint32_t source = kNone;  // the vertex of the source it is
         double linear = 0;             // what the field says there but for its shapes
 
-        [[nodiscard]] double allowed(const SizeField* field) const {
-            return field == nullptr ? size : std::max(size, std::min(linear, field->size_of_shapes(p)));
+        [[nodiscard]] double allowed(const SizeField* shapes) const {
+            return shapes == nullptr ? size : std::max(size, std::min(linear, shapes->size_of_shapes(p)));
         }
     };
 
