@@ -37,6 +37,7 @@ Status EventStream::take(v1::ProgressiveEvent event) {
         case v1::ProgressiveEvent::kRepresentation:
             representation_ = std::move(*event.mutable_representation());
             return Done{};
+        case v1::ProgressiveEvent::kError:  // over HTTP only
         case v1::ProgressiveEvent::EVENT_NOT_SET:
             return Done{};  // a kind of a later version
     }

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/grpcpp.h>
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "rest/asio.h"
+#include "rest/signal.h"
+
+namespace vsplit::rest {
+
+/// One rpc of any kind, in messages that nobody has taken apart: what is on the wire. For one coroutine on one strand, which must
+/// not write and read at the same time. Whoever lets go of one that is not finished cancels it.
+class RpcCall : public std::enable_shared_from_this<RpcCall> {
+public:
+    using Metadata = std::multimap<std::string, std::string>;
+
+    /// Begins it. `method` is "/package.Service/Method". `executor` is a strand of `context`, which lives until gRPC has told of
+    /// the end.
+    [[nodiscard]] static std::shared_ptr<RpcCall> start(grpc::GenericStub& stub, const std::string& method, const Metadata& metadata,
+                                                        std::shared_ptr<net::io_context> context,
+                                                        const net::any_io_executor& executor);
+
+    /// Sends a message; returns when the server has taken it, which is what keeps a client from running ahead. False when the rpc
+    /// is over: nobody wants more.
+    Awaitable<bool> write(grpc::ByteBuffer message, bool last);
+
+    /// No more messages.
+    Awaitable<void> writes_done();
+
+    /// The next message; empty at the end.
+    Awaitable<std::optional<grpc::ByteBuffer>> read();
+
+    /// How it ended. After `read` has come to the end, or `cancel`.
+    Awaitable<grpc::Status> finish();
+
+    /// Any thread, any time.
+    void cancel() { context_.TryCancel(); }
+
+private:
+    class Reactor;
+
+    RpcCall(std::shared_ptr<net::io_context> context, const net::any_io_executor& executor);
+
+    void release();
+
+    const std::shared_ptr<net::io_context> keep_;
+    grpc::ClientContext context_;
+    const std::shared_ptr<Signal> written_;
+    const std::shared_ptr<Signal> got_;
+    const std::shared_ptr<Signal> done_;
+    Reactor* reactor_ = nullptr;  // deletes itself when the rpc is over and it is not held
+
+    // Written by gRPC before the signal is set, read after it.
+    bool write_ok_ = false;
+    bool read_ok_ = false;
+    grpc::ByteBuffer out_;
+    grpc::ByteBuffer in_;
+    grpc::Status status_;
+};
+
+}  // namespace vsplit::rest

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/grpcpp.h>
+
+#include <memory>
+
+#include "rest/exchange.h"
+#include "rest/rpc_call.h"
+#include "vsplit/base/expected.h"
+
+namespace vsplit::rest {
+
+/// Calls the rpcs behind REST, on behalf of who sent a request: its credentials go along.
+class RpcClient {
+public:
+    RpcClient(std::shared_ptr<grpc::Channel> channel, std::shared_ptr<net::io_context> context);
+
+    /// Begins an rpc.
+    [[nodiscard]] std::shared_ptr<RpcCall> start(Exchange& exchange, const google::protobuf::MethodDescriptor& rpc);
+
+    /// One message there, one back; cancelled when the client leaves. \pre the body has been read.
+    Awaitable<Expected<grpc::ByteBuffer>> call(Exchange& exchange, const google::protobuf::MethodDescriptor& rpc,
+                                               const google::protobuf::Message& request);
+
+private:
+    grpc::GenericStub stub_;
+    const std::shared_ptr<net::io_context> context_;
+};
+
+/// Cancels `call` when the client of `exchange` leaves, from now to the end of the exchange. \pre the body has been read.
+void cancel_when_left(Exchange& exchange, const std::shared_ptr<RpcCall>& call);
+
+[[nodiscard]] grpc::ByteBuffer to_buffer(const google::protobuf::Message& message);
+
+/// \return CORRUPT for bytes that are no such message.
+[[nodiscard]] Status from_buffer(const grpc::ByteBuffer& buffer, google::protobuf::Message& message);
+
+}  // namespace vsplit::rest
