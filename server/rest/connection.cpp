@@ -134,7 +134,7 @@ Awaitable<void> Connection::answer(Exchange& exchange) {
             problem = problem_of(Error{Cause::kInternal, std::string("unexpected failure: ") + thrown.what(), ""});
         }
     }
-    if (problem) co_await exchange.fail(*std::move(problem));
+    if (problem) co_await exchange.fail(*problem);
 }
 
 Awaitable<void> Connection::refuse_header(RequestParser& parser, const ErrorCode& why) {
@@ -143,7 +143,7 @@ Awaitable<void> Connection::refuse_header(RequestParser& parser, const ErrorCode
     const ResponseManner manner{11, false, false, {}};
     Exchange exchange(stream_, buffer_, parser, manner, gateway_.limits());
     const unsigned status = problem->status;
-    co_await exchange.fail(*std::move(problem));
+    co_await exchange.fail(*problem);
     if (observer_) observer_({"-", "-", status, 0, exchange.response().sent(), {}});
     co_await linger();
 }

@@ -33,7 +33,7 @@ public:
     EventWriter& operator=(const EventWriter&) = delete;
 
     /// False when the client is gone.
-    virtual Awaitable<bool> take(grpc::ByteBuffer event) = 0;
+    virtual Awaitable<bool> take(const grpc::ByteBuffer& event) = 0;
     virtual Awaitable<void> finish(const grpc::Status& status) = 0;
 
 protected:
@@ -43,7 +43,7 @@ protected:
         head.content_type = content_type;
         head.fields.emplace_back("Cache-Control", "no-store");
         head.fields.emplace_back("Vary", "Accept, Accept-Encoding");
-        co_return co_await exchange_.response().begin(std::move(head));
+        co_return co_await exchange_.response().begin(head);
     }
 
     [[nodiscard]] Expected<std::unique_ptr<pb::Message>> parse(const grpc::ByteBuffer& buffer) const {
@@ -68,8 +68,8 @@ class LastEvent final : public EventWriter {
 public:
     using EventWriter::EventWriter;
 
-    Awaitable<bool> take(grpc::ByteBuffer event) override {
-        last_ = std::move(event);
+    Awaitable<bool> take(const grpc::ByteBuffer& event) override {
+        last_ = event;  // shares its slices
         co_return true;
     }
 
@@ -93,7 +93,7 @@ class EventLines final : public EventWriter {
 public:
     using EventWriter::EventWriter;
 
-    Awaitable<bool> take(grpc::ByteBuffer buffer) override {
+    Awaitable<bool> take(const grpc::ByteBuffer& buffer) override {
         const auto event = parse(buffer);
         if (!event) co_return false;
         const pb::FieldDescriptor* const kind = kind_of(**event);
@@ -107,7 +107,9 @@ public:
         if (!status.ok() && !exchange_.response().begun()) co_return co_await exchange_.fail(problem_of(status));
         if (!co_await begin(kOffers[1])) co_return;
         if (!status.ok()) {
-            const std::string line = "{\"error\":" + problem_json(problem_of(status)) + "}\n";
+            std::string problem = problem_json(problem_of(status));
+            problem.pop_back();  // its own end of line
+            const std::string line = "{\"error\":" + problem + "}\n";
             if (!co_await exchange_.response().write(line)) co_return;
         }
         co_await exchange_.response().end();
@@ -119,7 +121,7 @@ class EventFrames final : public EventWriter {
 public:
     using EventWriter::EventWriter;
 
-    Awaitable<bool> take(grpc::ByteBuffer event) override {
+    Awaitable<bool> take(const grpc::ByteBuffer& event) override {
         if (!co_await begin(kOffers[2])) co_return false;
         std::array<std::uint8_t, 10> varint{};
         const std::uint8_t* const end = pb::io::CodedOutputStream::WriteVarint64ToArray(event.Length(), varint.data());
@@ -127,14 +129,14 @@ public:
         static_cast<void>(event.Dump(&slices));
         std::vector<net::const_buffer> parts(1, net::const_buffer(varint.data(), static_cast<std::size_t>(end - varint.data())));
         for (const grpc::Slice& slice : slices) parts.emplace_back(slice.begin(), slice.size());
-        co_return co_await exchange_.response().write(std::move(parts));
+        co_return co_await exchange_.response().write(parts);
     }
 
     Awaitable<void> finish(const grpc::Status& status) override {
         if (!status.ok() && !exchange_.response().begun()) co_return co_await exchange_.fail(problem_of(status));
-        if (!status.ok() && !co_await tell(status)) co_return;
-        if (!co_await begin(kOffers[2])) co_return;
-        co_await exchange_.response().end();
+        bool going = co_await begin(kOffers[2]);
+        if (going && !status.ok()) going = co_await tell(status);
+        if (going) co_await exchange_.response().end();
     }
 
 private:
@@ -166,13 +168,14 @@ Awaitable<void> serve_events(Exchange& exchange, const Route& route, const Targe
     const std::optional<std::size_t> offer = choose_media_type(exchange.header(http::field::accept), kOffers);
     if (!offer) co_return co_await exchange.fail(not_acceptable(kOffered));
     auto request = co_await read_request(exchange, route, target, tools.json);
-    if (auto* problem = std::get_if<Problem>(&request)) co_return co_await exchange.fail(std::move(*problem));
+    if (auto* problem = std::get_if<Problem>(&request)) co_return co_await exchange.fail(*problem);
     const std::unique_ptr<EventWriter> writer = make_writer(*offer, exchange, *route.rpc->output_type(), tools);
     const std::shared_ptr<RpcCall> call = tools.rpcs.start(exchange, *route.rpc);
     cancel_when_left(exchange, call);
     co_await call->write(to_buffer(*std::get<std::unique_ptr<pb::Message>>(request)), true);
     while (std::optional<grpc::ByteBuffer> event = co_await call->read()) {
-        if (co_await writer->take(*std::move(event))) continue;
+        const bool going = co_await writer->take(*event);
+        if (going) continue;
         call->cancel();
         break;
     }

@@ -29,7 +29,7 @@ std::string_view Exchange::header(std::string_view name) const {
     return standard(request_[beast::string_view(name.data(), name.size())]);
 }
 
-Awaitable<void> Exchange::fail(Problem problem) {
+Awaitable<void> Exchange::fail(const Problem& problem) {
     if (response_.begun()) {
         response_.close_after();
         co_return;
@@ -42,7 +42,7 @@ Awaitable<void> Exchange::fail(Problem problem) {
     if (!problem.content_range.empty()) head.fields.emplace_back("Content-Range", problem.content_range);
     if (problem.error.retry_after > 0) head.fields.emplace_back("Retry-After", std::to_string(problem.error.retry_after));
     const std::string text = problem_json(problem);
-    co_await response_.respond(std::move(head), text);
+    co_await response_.respond(head, text);
 }
 
 }  // namespace vsplit::rest

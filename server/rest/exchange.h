@@ -33,7 +33,7 @@ public:
     [[nodiscard]] const RestLimits& limits() const { return limits_; }
 
     /// Answers with a problem; where an answer has begun already, cuts it off instead, so that nobody takes it for whole.
-    Awaitable<void> fail(Problem problem);
+    Awaitable<void> fail(const Problem& problem);
 
 private:
     beast::tcp_stream& stream_;

@@ -37,9 +37,13 @@ public:
         return shape_.size == nullptr ? 0 : chunk_->GetReflection()->GetUInt64(*chunk_, shape_.size);
     }
 
-    /// No more is wanted.
-    Awaitable<void> give_up() {
-        call_->cancel();
+    /// No more is wanted than what came; a file that came whole ends by itself.
+    Awaitable<void> give_up(bool whole) {
+        if (whole) {
+            co_await call_->read();
+        } else {
+            call_->cancel();
+        }
         co_await call_->finish();
     }
 
@@ -89,14 +93,16 @@ ResponseHead head_of(const Exchange& exchange, FileStream& file, const ByteRange
 Awaitable<bool> send_bytes(Exchange& exchange, FileStream& file, const ByteRange& range) {
     std::uint64_t at = 0;
     const std::uint64_t end = range.kind == ByteRange::Kind::kPart ? range.last + 1 : file.size();
-    for (bool more = true; more && at < end; more = co_await file.next()) {
+    bool going = true;
+    while (going && at < end) {
         const std::string_view data = file.data();
         const std::uint64_t skip = std::min<std::uint64_t>(data.size(), range.first > at ? range.first - at : 0);
         const std::uint64_t stop = std::min<std::uint64_t>(data.size(), end - at);
         at += data.size();
-        if (skip < stop && !co_await exchange.response().write(data.substr(skip, stop - skip))) co_return false;
+        if (skip < stop) going = co_await exchange.response().write(data.substr(skip, stop - skip));
+        if (going && at < end) going = co_await file.next();
     }
-    co_return at >= end;
+    co_return going;
 }
 
 Awaitable<void> send_file(Exchange& exchange, FileStream& file) {
@@ -108,8 +114,8 @@ Awaitable<void> send_file(Exchange& exchange, FileStream& file) {
                                        "the range begins behind the end of the file, which has " + std::to_string(file.size()) + " bytes",
                                        "Range");
         problem.content_range = "bytes */" + std::to_string(file.size());
-        co_await exchange.fail(std::move(problem));
-        co_return co_await file.give_up();
+        co_await exchange.fail(problem);
+        co_return co_await file.give_up(false);
     }
     const bool begun = co_await exchange.response().begin(head_of(exchange, file, range));
     bool whole = false;
@@ -123,14 +129,15 @@ Awaitable<void> send_file(Exchange& exchange, FileStream& file) {
     } else {
         exchange.response().close_after();
     }
-    co_await file.give_up();
+    const bool to_the_end = range.kind == ByteRange::Kind::kWhole && !exchange.response().head_only();
+    co_await file.give_up(whole && to_the_end);
 }
 
 }  // namespace
 
 Awaitable<void> serve_file(Exchange& exchange, const Route& route, const Target& target, Tools tools) {
     auto request = co_await read_request(exchange, route, target, tools.json);
-    if (auto* problem = std::get_if<Problem>(&request)) co_return co_await exchange.fail(std::move(*problem));
+    if (auto* problem = std::get_if<Problem>(&request)) co_return co_await exchange.fail(*problem);
     const std::shared_ptr<RpcCall> call = tools.rpcs.start(exchange, *route.rpc);
     cancel_when_left(exchange, call);
     co_await call->write(to_buffer(*std::get<std::unique_ptr<pb::Message>>(request)), true);

@@ -117,7 +117,7 @@ Awaitable<void> Gateway::serve_options(Exchange& exchange, const std::string& al
         for (auto& field : preflight_fields(allowed)) head.fields.push_back(std::move(field));
     }
     if (!exchange.body().at_end()) exchange.response().close_after();
-    co_await exchange.response().respond(std::move(head), {});
+    co_await exchange.response().respond(head, {});
 }
 
 Awaitable<void> Gateway::serve_page(Exchange& exchange, const Page& page) {
@@ -128,7 +128,7 @@ Awaitable<void> Gateway::serve_page(Exchange& exchange, const Page& page) {
     head.fields.emplace_back("Vary", "Accept-Encoding");
     head.gzip = text.size() > kLongPage && accepts_encoding(exchange.header(http::field::accept_encoding), "gzip");
     if (!exchange.body().at_end()) exchange.response().close_after();
-    co_await exchange.response().respond(std::move(head), text);
+    co_await exchange.response().respond(head, text);
 }
 
 Awaitable<void> Gateway::serve_ready(Exchange& exchange) {

@@ -122,7 +122,7 @@ Awaitable<void> respond_json(Exchange& exchange, const pb::Message& message, Jso
     head.fields.emplace_back("Cache-Control", "no-store");
     head.fields.emplace_back("Vary", "Accept, Accept-Encoding");
     head.gzip = text.size() > kLong && accepts_encoding(exchange.header(http::field::accept_encoding), "gzip");
-    co_await exchange.response().respond(std::move(head), text);
+    co_await exchange.response().respond(head, text);
 }
 
 bool accepts_json(const Exchange& exchange) {

@@ -33,7 +33,7 @@ std::string problem_json(const Problem& problem) {
     json["cause"] = cause_name(problem.error.cause);
     if (!problem.error.field.empty()) json["field"] = wire::valid_utf8(problem.error.field, wire::kMaxMessageBytes);
     if (problem.error.retry_after > 0) json["retryAfter"] = problem.error.retry_after;
-    return json.dump();
+    return json.dump() + '\n';
 }
 
 }  // namespace vsplit::rest

@@ -3,6 +3,7 @@
 #include <boost/asio/buffer.hpp>
 #include <chrono>
 #include <ctime>
+#include <sstream>
 
 namespace vsplit::rest {
 namespace {
@@ -18,8 +19,13 @@ std::string http_date() {
 
 net::const_buffer buffer_of(std::string_view text) { return {text.data(), text.size()}; }
 
-// Not a braced list: g++ 12 goes wrong on those in an awaited expression.
-std::vector<net::const_buffer> one(std::string_view text) { return std::vector<net::const_buffer>(1, buffer_of(text)); }
+Parts one(std::string_view text) { return Parts(1, buffer_of(text)); }
+
+std::string chunk_length(std::size_t size) {
+    std::ostringstream text;
+    text << std::hex << size << "\r\n";
+    return text.str();
+}
 
 }  // namespace
 
@@ -52,7 +58,7 @@ http::response<http::empty_body> ResponseWriter::make_header(const ResponseHead&
     return header;
 }
 
-Awaitable<bool> ResponseWriter::begin(ResponseHead head) {
+Awaitable<bool> ResponseWriter::begin(const ResponseHead& head) {
     begun_ = true;
     status_ = head.status;
     const http::response<http::empty_body> header = make_header(head);
@@ -65,8 +71,9 @@ Awaitable<bool> ResponseWriter::begin(ResponseHead head) {
     co_return !failed_;
 }
 
-Awaitable<bool> ResponseWriter::send(std::vector<net::const_buffer> parts) {
+Awaitable<bool> ResponseWriter::send(const Parts& all_parts) {
     if (failed_) co_return false;
+    Parts parts = all_parts;
     // A slow reader is one that takes nothing for a while: however large a part is, it goes out in bits.
     ErrorCode failed;
     std::size_t sent = 0;
@@ -86,44 +93,55 @@ Awaitable<bool> ResponseWriter::send(std::vector<net::const_buffer> parts) {
     co_return !failed_;
 }
 
-Awaitable<bool> ResponseWriter::send_chunk(std::vector<net::const_buffer> parts) {
+Awaitable<bool> ResponseWriter::send_chunk(const Parts& parts) {
     const std::size_t size = net::buffer_size(parts);
     if (size == 0) co_return !failed_;  // an empty chunk would be the last
-    if (!chunked_) co_return co_await send(std::move(parts));
-    char digits[20];  // NOLINT(modernize-avoid-c-arrays)
-    const int length = std::snprintf(digits, sizeof digits, "%zx\r\n", size);
-    parts.insert(parts.begin(), net::const_buffer(digits, static_cast<std::size_t>(length)));
-    parts.push_back(buffer_of("\r\n"));
-    co_return co_await send(std::move(parts));
+    if (!chunked_) co_return co_await send(parts);
+    const std::string length = chunk_length(size);
+    Parts framed = one(length);
+    framed.insert(framed.end(), parts.begin(), parts.end());
+    framed.push_back(buffer_of("\r\n"));
+    co_return co_await send(framed);
 }
 
-Awaitable<bool> ResponseWriter::write(std::vector<net::const_buffer> parts) {
+Awaitable<bool> ResponseWriter::write(const Parts& parts) {
     if (manner_.head_only || !has_body_) co_return !failed_;
-    if (!gzip_) co_return co_await send_chunk(std::move(parts));
+    if (!gzip_) co_return co_await send_chunk(parts);
     for (const net::const_buffer& part : parts) {
         const std::string made = gzip_->take({static_cast<const char*>(part.data()), part.size()}, false);
-        if (!co_await send_chunk(one(made))) co_return false;
+        const Parts compressed = one(made);
+        const bool sent = co_await send_chunk(compressed);
+        if (!sent) co_return false;
     }
     co_return true;
 }
 
-Awaitable<bool> ResponseWriter::write(std::string_view part) { return write(one(part)); }
+Awaitable<bool> ResponseWriter::write(std::string_view part) {
+    const Parts parts = one(part);
+    co_return co_await write(parts);
+}
 
 Awaitable<bool> ResponseWriter::end() {
     if (gzip_) {
         const std::string rest = gzip_->take({}, true);
-        if (!co_await send_chunk(one(rest))) co_return false;
+        const Parts parts = one(rest);
+        co_await send_chunk(parts);
     }
-    if (chunked_ && !manner_.head_only && !co_await send(one("0\r\n\r\n"))) co_return false;
+    if (chunked_ && !manner_.head_only) {
+        const Parts last = one("0\r\n\r\n");
+        co_await send(last);
+    }
     whole_ = !failed_;
     co_return whole_;
 }
 
-Awaitable<bool> ResponseWriter::respond(ResponseHead head, std::string_view body) {
-    head.length = body.size();
-    if (!co_await begin(std::move(head))) co_return false;
-    if (!co_await write(body)) co_return false;
-    co_return co_await end();
+Awaitable<bool> ResponseWriter::respond(const ResponseHead& head, std::string_view body) {
+    ResponseHead whole = head;
+    whole.length = body.size();
+    bool going = co_await begin(whole);
+    if (going) going = co_await write(body);
+    if (going) going = co_await end();
+    co_return going;
 }
 
 }  // namespace vsplit::rest

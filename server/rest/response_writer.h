@@ -31,6 +31,9 @@ struct ResponseManner {
     HeaderFields fields;  ///< of every answer, CORS's for example
 };
 
+/// Bytes that are written one after another.
+using Parts = std::vector<net::const_buffer>;
+
 /// Writes the answer to one request, part by part; each part is with the operating system before the next is asked for.
 class ResponseWriter {
 public:
@@ -49,18 +52,18 @@ public:
 
     // All return false when the client is gone or takes nothing; nothing is written any more then.
 
-    Awaitable<bool> begin(ResponseHead head);
-    Awaitable<bool> write(std::vector<net::const_buffer> parts);
+    Awaitable<bool> begin(const ResponseHead& head);
+    Awaitable<bool> write(const Parts& parts);
     Awaitable<bool> write(std::string_view part);
     Awaitable<bool> end();
 
     /// The whole of a short answer.
-    Awaitable<bool> respond(ResponseHead head, std::string_view body);
+    Awaitable<bool> respond(const ResponseHead& head, std::string_view body);
 
 private:
     [[nodiscard]] http::response<http::empty_body> make_header(const ResponseHead& head);
-    Awaitable<bool> send(std::vector<net::const_buffer> parts);
-    Awaitable<bool> send_chunk(std::vector<net::const_buffer> parts);
+    Awaitable<bool> send(const Parts& parts);
+    Awaitable<bool> send_chunk(const Parts& parts);
 
     beast::tcp_stream& stream_;
     ResponseManner manner_;

@@ -45,6 +45,7 @@ std::shared_ptr<RpcCall> RpcCall::start(grpc::GenericStub& stub, const std::stri
     stub.PrepareBidiStreamingCall(&call->context_, method, {}, call->reactor_);
     // The coroutine starts writes and reads; without the hold gRPC could be done with the reactor between two of them.
     call->reactor_->AddHold();
+    call->reactor_->StartRead(&call->in_);
     call->reactor_->StartCall();
     RpcCall* const bare = call.get();
     return {bare, [call = std::move(call)](RpcCall* /*the same*/) { call->release(); }};
@@ -56,9 +57,9 @@ void RpcCall::release() {
     std::exchange(reactor_, nullptr)->RemoveHold();
 }
 
-Awaitable<bool> RpcCall::write(grpc::ByteBuffer message, bool last) {
+Awaitable<bool> RpcCall::write(const grpc::ByteBuffer& message, bool last) {
     const std::shared_ptr<RpcCall> self = shared_from_this();
-    out_.Swap(&message);
+    out_ = message;  // shares its slices
     if (last) {
         reactor_->StartWriteLast(&out_, {});
     } else {
@@ -77,11 +78,11 @@ Awaitable<void> RpcCall::writes_done() {
 
 Awaitable<std::optional<grpc::ByteBuffer>> RpcCall::read() {
     const std::shared_ptr<RpcCall> self = shared_from_this();
-    reactor_->StartRead(&in_);
     co_await got_->wait();
     if (!read_ok_) co_return std::nullopt;
     grpc::ByteBuffer message;
     message.Swap(&in_);
+    reactor_->StartRead(&in_);
     co_return message;
 }
 

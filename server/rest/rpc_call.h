@@ -14,8 +14,11 @@
 
 namespace vsplit::rest {
 
-/// One rpc of any kind, in messages that nobody has taken apart: what is on the wire. For one coroutine on one strand, which must
-/// not write and read at the same time. Whoever lets go of one that is not finished cancels it.
+/// One rpc of any kind, in messages that nobody has taken apart: what is on the wire. For one coroutine on one strand. Whoever lets
+/// go of one that is not finished cancels it.
+///
+/// A read is always under way, so that one message more than was asked for is here: in process, gRPC 1.51 drops the message that a
+/// server sends together with its status when nobody waits for it.
 class RpcCall : public std::enable_shared_from_this<RpcCall> {
 public:
     using Metadata = std::multimap<std::string, std::string>;
@@ -28,7 +31,7 @@ public:
 
     /// Sends a message; returns when the server has taken it, which is what keeps a client from running ahead. False when the rpc
     /// is over: nobody wants more.
-    Awaitable<bool> write(grpc::ByteBuffer message, bool last);
+    Awaitable<bool> write(const grpc::ByteBuffer& message, bool last);
 
     /// No more messages.
     Awaitable<void> writes_done();

@@ -20,14 +20,18 @@ std::shared_ptr<RpcCall> RpcClient::start(Exchange& exchange, const pb::MethodDe
     return RpcCall::start(stub_, '/' + rpc.service()->full_name() + '/' + rpc.name(), metadata, context_, exchange.executor());
 }
 
-Awaitable<Expected<grpc::ByteBuffer>> RpcClient::call(Exchange& exchange, const pb::MethodDescriptor& rpc,
-                                                      const pb::Message& request) {
+Awaitable<Expected<grpc::ByteBuffer>> RpcClient::call(Exchange& exchange, const pb::MethodDescriptor& rpc, const pb::Message& request,
+                                                      WhenLeft when_left) {
     const std::shared_ptr<RpcCall> call = start(exchange, rpc);
-    cancel_when_left(exchange, call);
+    if (when_left == WhenLeft::kCancel) cancel_when_left(exchange, call);
     co_await call->write(to_buffer(request), true);
-    std::optional<grpc::ByteBuffer> reply = co_await call->read();
-    if (reply) co_await call->read();  // the end
-    const grpc::Status status = co_await call->finish();
+    co_return co_await reply_of(*call);
+}
+
+Awaitable<Expected<grpc::ByteBuffer>> reply_of(RpcCall& call) {
+    std::optional<grpc::ByteBuffer> reply = co_await call.read();
+    if (reply) co_await call.read();  // the end
+    const grpc::Status status = co_await call.finish();
     if (!status.ok()) co_return wire::from_status(status);
     if (!reply) co_return Error{Cause::kInternal, "the rpc ended without a reply", ""};
     co_return *std::move(reply);

@@ -21,14 +21,19 @@ public:
     /// Begins an rpc.
     [[nodiscard]] std::shared_ptr<RpcCall> start(Exchange& exchange, const google::protobuf::MethodDescriptor& rpc);
 
-    /// One message there, one back; cancelled when the client leaves. \pre the body has been read.
+    enum class WhenLeft { kCancel, kGoOn };
+
+    /// One message there, one back. \pre the body has been read, where the rpc is to be cancelled when the client leaves.
     Awaitable<Expected<grpc::ByteBuffer>> call(Exchange& exchange, const google::protobuf::MethodDescriptor& rpc,
-                                               const google::protobuf::Message& request);
+                                               const google::protobuf::Message& request, WhenLeft when_left);
 
 private:
     grpc::GenericStub stub_;
     const std::shared_ptr<net::io_context> context_;
 };
+
+/// The one reply of an rpc that has been sent everything, or its error.
+Awaitable<Expected<grpc::ByteBuffer>> reply_of(RpcCall& call);
 
 /// Cancels `call` when the client of `exchange` leaves, from now to the end of the exchange. \pre the body has been read.
 void cancel_when_left(Exchange& exchange, const std::shared_ptr<RpcCall>& call);

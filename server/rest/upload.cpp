@@ -48,12 +48,7 @@ public:
             cancel_when_left(exchange_, call_);  // the body is here: nobody reads from the client meanwhile
             co_await call_->writes_done();
         }
-        std::optional<grpc::ByteBuffer> reply = co_await call_->read();
-        if (reply) co_await call_->read();
-        const grpc::Status status = co_await call_->finish();
-        if (!status.ok()) co_return wire::from_status(status);
-        if (!reply) co_return Error{Cause::kInternal, "the upload ended without a reply", ""};
-        co_return *std::move(reply);
+        co_return co_await reply_of(*call_);
     }
 
 private:
@@ -65,7 +60,10 @@ private:
         if (!co_await call_->write(to_buffer(chunk), false)) co_return false;
         chunk.Clear();
         // An empty part more: it is taken when the first one has been accepted, and only then a client that waits is told to go on.
-        if (exchange_.body().client_waits() && !co_await call_->write(to_buffer(chunk), false)) co_return false;
+        if (exchange_.body().client_waits()) {
+            const bool accepted = co_await call_->write(to_buffer(chunk), false);
+            if (!accepted) co_return false;
+        }
         std::vector<char> part(kPartBytes);
         for (;;) {
             const std::uint64_t offset = exchange_.body().received();
@@ -97,12 +95,8 @@ void set_session(pb::Message& message, const std::string& session) {
 
 Awaitable<Expected<std::string>> create_empty(Exchange& exchange, const pb::MethodDescriptor& create, Tools tools) {
     const auto request = tools.json.schema.new_message(create.input_type());
-    const std::shared_ptr<RpcCall> call = tools.rpcs.start(exchange, create);
-    co_await call->write(to_buffer(*request), true);
-    const std::optional<grpc::ByteBuffer> reply = co_await call->read();
-    if (reply) co_await call->read();
-    const grpc::Status status = co_await call->finish();
-    if (!status.ok()) co_return wire::from_status(status);
+    const Expected<grpc::ByteBuffer> reply = co_await tools.rpcs.call(exchange, create, *request, RpcClient::WhenLeft::kGoOn);
+    if (!reply) co_return reply.error();
     const auto session = tools.json.schema.new_message(create.output_type());
     if (Status parsed = from_buffer(*reply, *session); !parsed) co_return parsed.error();
     co_return text_of(*session, "id");
@@ -112,10 +106,7 @@ Awaitable<void> delete_session(Exchange& exchange, const std::string& session, T
     const pb::MethodDescriptor& rpc = *tools.json.schema.find_rpc(kDelete);
     const auto request = tools.json.schema.new_message(rpc.input_type());
     set_session(*request, session);
-    const std::shared_ptr<RpcCall> call = tools.rpcs.start(exchange, rpc);
-    co_await call->write(to_buffer(*request), true);
-    if (co_await call->read()) co_await call->read();
-    co_await call->finish();
+    co_await tools.rpcs.call(exchange, rpc, *request, RpcClient::WhenLeft::kGoOn);
 }
 
 Awaitable<void> respond(Exchange& exchange, const pb::Descriptor* type, const Expected<grpc::ByteBuffer>& reply, Tools tools) {
@@ -130,7 +121,7 @@ Awaitable<void> respond(Exchange& exchange, const pb::Descriptor* type, const Ex
 
 Awaitable<void> serve_upload(Exchange& exchange, const Route& route, const Target& target, Tools tools) {
     if (!accepts_json(exchange)) co_return co_await exchange.fail(not_acceptable(kJsonType));
-    if (std::optional<Problem> refused = refuse_body(exchange)) co_return co_await exchange.fail(*std::move(refused));
+    if (std::optional<Problem> refused = refuse_body(exchange)) co_return co_await exchange.fail(*refused);
     const auto first = tools.json.schema.new_message(route.rpc->input_type());
     const Status bound = bind_target(route, target, *first);
     if (!bound) co_return co_await exchange.fail(problem_of(bound.error()));
@@ -147,7 +138,7 @@ bool creates_with_mesh(Exchange& exchange, const Route& route) {
 
 Awaitable<void> serve_create_with_mesh(Exchange& exchange, const Route& route, const Target& target, Tools tools) {
     if (!accepts_json(exchange)) co_return co_await exchange.fail(not_acceptable(kJsonType));
-    if (std::optional<Problem> refused = refuse_body(exchange)) co_return co_await exchange.fail(*std::move(refused));
+    if (std::optional<Problem> refused = refuse_body(exchange)) co_return co_await exchange.fail(*refused);
     const pb::MethodDescriptor& upload = *tools.json.schema.find_rpc(kUpload);
     const auto first = tools.json.schema.new_message(upload.input_type());
     const Status bound = bind_target(route, target, *first);
