@@ -68,7 +68,7 @@ Status PathTemplate::parse_segments(std::string_view text) {
     const std::string_view inside = text.substr(1, text.size() - 2);
     const std::size_t equals = inside.find('=');
     Variable variable{std::string(inside.substr(0, equals)), segments_.size(), 0};
-    if (variable.field.empty()) return no_template(text);
+    if (variable.field.empty() || variable.field.find_first_of("{}") != std::string::npos) return no_template(text);
     std::string_view pattern = equals == std::string_view::npos ? "*" : inside.substr(equals + 1);
     if (pattern.empty() || pattern.back() == '/') return no_template(text);
     while (!pattern.empty()) {
