@@ -18,6 +18,7 @@ public:
 
     void OnReadDone(bool ok) override {
         call_->read_ok_ = ok;
+        if (!ok) call_->over_ = true;
         call_->got_->set();
     }
 
@@ -68,6 +69,18 @@ Awaitable<bool> RpcCall::write(const grpc::ByteBuffer& message, bool last) {
     co_await written_->wait();
     out_.Clear();
     co_return write_ok_;
+}
+
+Awaitable<bool> RpcCall::over_within(std::chrono::milliseconds longest) {
+    const std::shared_ptr<RpcCall> self = shared_from_this();
+    constexpr std::chrono::milliseconds kStep(1);
+    net::steady_timer timer(co_await net::this_coro::executor);
+    for (const auto until = std::chrono::steady_clock::now() + longest; !over_ && std::chrono::steady_clock::now() < until;) {
+        timer.expires_after(kStep);
+        ErrorCode ignored;
+        co_await timer.async_wait(into(ignored));
+    }
+    co_return over_;
 }
 
 Awaitable<void> RpcCall::writes_done() {

@@ -3,6 +3,8 @@
 #include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 
+#include <atomic>
+#include <chrono>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -33,6 +35,12 @@ public:
     /// is over: nobody wants more.
     Awaitable<bool> write(const grpc::ByteBuffer& message, bool last);
 
+    /// Whether it is over already: there is nobody to write to, and no message to read.
+    [[nodiscard]] bool over() const { return over_; }
+
+    /// Waits at most so long for it to be over.
+    Awaitable<bool> over_within(std::chrono::milliseconds longest);
+
     /// No more messages.
     Awaitable<void> writes_done();
 
@@ -62,6 +70,7 @@ private:
     // Written by gRPC before the signal is set, read after it.
     bool write_ok_ = false;
     bool read_ok_ = false;
+    std::atomic<bool> over_{false};
     grpc::ByteBuffer out_;
     grpc::ByteBuffer in_;
     grpc::Status status_;

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@ namespace pb = google::protobuf;
 
 namespace {
 
+constexpr std::chrono::milliseconds kRefusalTime{10};
 constexpr std::size_t kPartBytes = std::size_t{256} * 1024;
 
 // Types that say a body is something else than a file as it is.
@@ -59,10 +61,13 @@ private:
         if (shape_.size != nullptr && size) reflection.SetUInt64(&chunk, shape_.size, *size);
         if (!co_await call_->write(to_buffer(chunk), false)) co_return false;
         chunk.Clear();
-        // An empty part more: it is taken when the first one has been accepted, and only then a client that waits is told to go on.
+        // An empty part more: it is taken when the first one has been accepted or refused, and only then a client that waits is told
+        // to go on. The news of a refusal comes a moment later; where it does not, the client has sent for nothing.
         if (exchange_.body().client_waits()) {
-            const bool accepted = co_await call_->write(to_buffer(chunk), false);
-            if (!accepted) co_return false;
+            const bool taken = co_await call_->write(to_buffer(chunk), false);
+            if (!taken) co_return false;
+            const bool refused = co_await call_->over_within(kRefusalTime);
+            if (refused) co_return false;
         }
         std::vector<char> part(kPartBytes);
         for (;;) {
