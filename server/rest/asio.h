@@ -24,6 +24,8 @@
 #include <boost/system/error_code.hpp>
 #include <optional>
 
+/// Coroutines here take and await nothing that g++ 12 gets wrong: no parameter by value that has a destructor (but a shared_ptr),
+/// no braced list and no choice by ?: && || within an awaited expression. It would destroy temporaries twice, or never made.
 namespace vsplit::rest {
 
 namespace net = boost::asio;

@@ -144,8 +144,9 @@ Awaitable<void> serve_file(Exchange& exchange, const Route& route, const Target&
     FileStream file(call, tools.json.schema, *route.rpc->output_type());
     if (co_await file.next()) co_return co_await send_file(exchange, file);
     const grpc::Status status = co_await file.finish();
-    const Error no_file{Cause::kInternal, "the stream ended without a chunk", ""};
-    co_await exchange.fail(status.ok() ? problem_of(no_file) : problem_of(status));
+    Problem problem = problem_of(Error{Cause::kInternal, "the stream ended without a chunk", ""});
+    if (!status.ok()) problem = problem_of(status);
+    co_await exchange.fail(problem);
 }
 
 }  // namespace vsplit::rest

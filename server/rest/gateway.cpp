@@ -39,28 +39,27 @@ const Route* find_route(const std::vector<const Route*>& routes, std::string_vie
 
 }  // namespace
 
-Gateway::Gateway(Backend backend, RestOptions options, std::shared_ptr<net::io_context> context, std::unique_ptr<Schema> schema,
-                 Router router)
+Gateway::Gateway(Backend backend, RestOptions options, std::unique_ptr<Schema> schema, Router router)
     : backend_(std::move(backend)),
       options_(std::move(options)),
       schema_(std::move(schema)),
       router_(std::move(router)),
       budget_(options_.limits.all_json_bytes),
       json_pool_(kJsonThreads),
-      rpcs_(backend_.channel, std::move(context)) {
+      rpcs_(backend_.channel) {
     pages_ = operations_pages({backend_.ready, backend_.metrics, openapi_document(*schema_, router_, backend_.version)});
     for (auto& [path, page] : backend_.pages) pages_[path] = page;
 }
 
 Gateway::~Gateway() { json_pool_.join(); }
 
-Expected<std::unique_ptr<Gateway>> Gateway::make(Backend backend, RestOptions options, std::shared_ptr<net::io_context> context) {
+Expected<std::unique_ptr<Gateway>> Gateway::make(Backend backend, RestOptions options) {
     Expected<std::unique_ptr<Schema>> schema = Schema::make(backend.descriptor_sets, backend.services);
     if (!schema) return schema.error();
     Expected<Router> router = Router::make(**schema);
     if (!router) return router.error();
     return std::unique_ptr<Gateway>(
-        new Gateway(std::move(backend), std::move(options), std::move(context), *std::move(schema), *std::move(router)));
+        new Gateway(std::move(backend), std::move(options), *std::move(schema), *std::move(router)));
 }
 
 ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& request) const {

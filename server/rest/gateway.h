@@ -29,9 +29,8 @@ struct Backend {
 /// Decides what answers a request. Thread-safe but for its set-up.
 class Gateway {
 public:
-    /// `context` runs the connections. \return MALFORMED_INPUT, NOT_FOUND for descriptors that do not fit.
-    [[nodiscard]] static Expected<std::unique_ptr<Gateway>> make(Backend backend, RestOptions options,
-                                                                 std::shared_ptr<net::io_context> context);
+    /// \return MALFORMED_INPUT, NOT_FOUND for descriptors that do not fit.
+    [[nodiscard]] static Expected<std::unique_ptr<Gateway>> make(Backend backend, RestOptions options);
     ~Gateway();
 
     [[nodiscard]] const RestLimits& limits() const { return options_.limits; }
@@ -43,8 +42,7 @@ public:
     Awaitable<void> serve(Exchange& exchange);
 
 private:
-    Gateway(Backend backend, RestOptions options, std::shared_ptr<net::io_context> context, std::unique_ptr<Schema> schema,
-            Router router);
+    Gateway(Backend backend, RestOptions options, std::unique_ptr<Schema> schema, Router router);
 
     Awaitable<void> serve_target(Exchange& exchange, const Target& target);
     Awaitable<void> serve_options(Exchange& exchange, const std::string& allowed);

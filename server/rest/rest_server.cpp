@@ -126,7 +126,7 @@ Expected<std::unique_ptr<RestServer>> RestServer::start(const std::string& host,
                                                         RestOptions options, HttpObserver observer) {
     auto context = std::make_shared<net::io_context>();
     const unsigned threads = options.threads;
-    Expected<std::unique_ptr<Gateway>> gateway = Gateway::make(std::move(backend), std::move(options), context);
+    Expected<std::unique_ptr<Gateway>> gateway = Gateway::make(std::move(backend), std::move(options));
     if (!gateway) return gateway.error();
     auto listener = std::make_shared<Listener>(std::move(context), *std::move(gateway), std::move(observer));
     if (Status listening = listener->listen(host, port); !listening) return listening.error();

@@ -32,15 +32,15 @@ private:
     const std::shared_ptr<RpcCall> call_;
 };
 
-RpcCall::RpcCall(std::shared_ptr<net::io_context> context, const net::any_io_executor& executor)
-    : keep_(std::move(context)),
+RpcCall::RpcCall(LiveCalls& live, const net::any_io_executor& executor)
+    : presence_(live),
       written_(std::make_shared<Signal>(executor)),
       got_(std::make_shared<Signal>(executor)),
       done_(std::make_shared<Signal>(executor)) {}
 
 std::shared_ptr<RpcCall> RpcCall::start(grpc::GenericStub& stub, const std::string& method, const Metadata& metadata,
-                                        std::shared_ptr<net::io_context> context, const net::any_io_executor& executor) {
-    std::shared_ptr<RpcCall> call(new RpcCall(std::move(context), executor));
+                                        LiveCalls& live, const net::any_io_executor& executor) {
+    std::shared_ptr<RpcCall> call(new RpcCall(live, executor));
     for (const auto& [name, value] : metadata) call->context_.AddMetadata(name, value);
     call->reactor_ = new Reactor(call);
     stub.PrepareBidiStreamingCall(&call->context_, method, {}, call->reactor_);

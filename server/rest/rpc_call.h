@@ -5,6 +5,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -16,6 +18,31 @@
 
 namespace vsplit::rest {
 
+/// How many rpcs there are. The channel must not be let go by gRPC's own thread, which would then wait for itself: whoever owns it
+/// waits for the last rpc first. Thread-safe.
+class LiveCalls {
+public:
+    void begin() {
+        const std::lock_guard lock(mutex_);
+        ++count_;
+    }
+
+    void end() {
+        const std::lock_guard lock(mutex_);
+        if (--count_ == 0) none_.notify_all();
+    }
+
+    void wait_for_none() {
+        std::unique_lock lock(mutex_);
+        none_.wait(lock, [this] { return count_ == 0; });
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable none_;
+    std::size_t count_ = 0;
+};
+
 /// One rpc of any kind, in messages that nobody has taken apart: what is on the wire. For one coroutine on one strand. Whoever lets
 /// go of one that is not finished cancels it.
 ///
@@ -25,11 +52,13 @@ class RpcCall : public std::enable_shared_from_this<RpcCall> {
 public:
     using Metadata = std::multimap<std::string, std::string>;
 
-    /// Begins it. `method` is "/package.Service/Method". `executor` is a strand of `context`, which lives until gRPC has told of
-    /// the end.
+    /// Begins it. `method` is "/package.Service/Method".
     [[nodiscard]] static std::shared_ptr<RpcCall> start(grpc::GenericStub& stub, const std::string& method, const Metadata& metadata,
-                                                        std::shared_ptr<net::io_context> context,
-                                                        const net::any_io_executor& executor);
+                                                        LiveCalls& live, const net::any_io_executor& executor);
+
+    RpcCall(const RpcCall&) = delete;
+    RpcCall& operator=(const RpcCall&) = delete;
+    ~RpcCall() = default;
 
     /// Sends a message; returns when the server has taken it, which is what keeps a client from running ahead. False when the rpc
     /// is over: nobody wants more.
@@ -56,11 +85,20 @@ public:
 private:
     class Reactor;
 
-    RpcCall(std::shared_ptr<net::io_context> context, const net::any_io_executor& executor);
+    // Told last of all that goes with a call.
+    struct Presence {
+        explicit Presence(LiveCalls& calls) : live(calls) { live.begin(); }
+        Presence(const Presence&) = delete;
+        Presence& operator=(const Presence&) = delete;
+        ~Presence() { live.end(); }
+        LiveCalls& live;
+    };
+
+    RpcCall(LiveCalls& live, const net::any_io_executor& executor);
 
     void release();
 
-    const std::shared_ptr<net::io_context> keep_;
+    const Presence presence_;
     grpc::ClientContext context_;
     const std::shared_ptr<Signal> written_;
     const std::shared_ptr<Signal> got_;

@@ -10,14 +10,11 @@
 namespace vsplit::rest {
 namespace pb = google::protobuf;
 
-RpcClient::RpcClient(std::shared_ptr<grpc::Channel> channel, std::shared_ptr<net::io_context> context)
-    : stub_(std::move(channel)), context_(std::move(context)) {}
-
 std::shared_ptr<RpcCall> RpcClient::start(Exchange& exchange, const pb::MethodDescriptor& rpc) {
     RpcCall::Metadata metadata;
     const std::string_view credentials = exchange.header(http::field::authorization);
     if (!credentials.empty()) metadata.emplace("authorization", credentials);
-    return RpcCall::start(stub_, '/' + rpc.service()->full_name() + '/' + rpc.name(), metadata, context_, exchange.executor());
+    return RpcCall::start(stub_, '/' + rpc.service()->full_name() + '/' + rpc.name(), metadata, live_, exchange.executor());
 }
 
 Awaitable<Expected<grpc::ByteBuffer>> RpcClient::call(Exchange& exchange, const pb::MethodDescriptor& rpc, const pb::Message& request,

@@ -6,6 +6,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <memory>
+#include <utility>
 
 #include "rest/exchange.h"
 #include "rest/rpc_call.h"
@@ -16,7 +17,10 @@ namespace vsplit::rest {
 /// Calls the rpcs behind REST, on behalf of who sent a request: its credentials go along.
 class RpcClient {
 public:
-    RpcClient(std::shared_ptr<grpc::Channel> channel, std::shared_ptr<net::io_context> context);
+    explicit RpcClient(std::shared_ptr<grpc::Channel> channel) : stub_(std::move(channel)) {}
+    ~RpcClient() { live_.wait_for_none(); }
+    RpcClient(const RpcClient&) = delete;
+    RpcClient& operator=(const RpcClient&) = delete;
 
     /// Begins an rpc.
     [[nodiscard]] std::shared_ptr<RpcCall> start(Exchange& exchange, const google::protobuf::MethodDescriptor& rpc);
@@ -29,7 +33,7 @@ public:
 
 private:
     grpc::GenericStub stub_;
-    const std::shared_ptr<net::io_context> context_;
+    LiveCalls live_;
 };
 
 /// The one reply of an rpc that has been sent everything, or its error.
