@@ -41,8 +41,8 @@ inline constexpr std::size_t kMaxMessageBytes = 1000;
 /// and RetryInfo where the error says when to try again.
 [[nodiscard]] grpc::Status to_status(const Error& error);
 
-/// The error of a status: cause, field and when to try again from its details, or, where it comes without (from gRPC itself, a proxy, another
-/// server), the cause that its code suggests. \pre !status.ok().
+/// The error of a status: cause, field and when to try again from its details, or, where it comes without (from gRPC itself, a
+/// proxy, another server), the cause that its code suggests. \pre !status.ok().
 [[nodiscard]] Error from_status(const grpc::Status& status);
 
 }  // namespace vsplit::wire

@@ -18,7 +18,7 @@ namespace vsplit::rpc {
 /// What a server has beside the contract.
 struct GrpcExtras {
     RpcObserver observer{};
-    RpcMeter* meter = nullptr;                ///< counts every rpc; must outlive the server
+    RpcMeter* meter = nullptr;               ///< counts every rpc; must outlive the server
     std::vector<grpc::Service*> services{};  ///< served too; must outlive the server
 };
 

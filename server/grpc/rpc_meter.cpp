@@ -27,7 +27,8 @@ public:
 
     void Intercept(InterceptorBatchMethods* methods) override {
         if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::POST_RECV_MESSAGE)) count_in(methods->GetRecvMessage());
-        if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_MESSAGE)) count_out(methods->GetSerializedSendMessage());
+        if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_MESSAGE))
+            count_out(methods->GetSerializedSendMessage());
         if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_STATUS)) {
             meter_.rpc_ended(name_, methods->GetSendStatus().error_code(), std::chrono::steady_clock::now() - start_);
         }

@@ -42,8 +42,8 @@ void log_rpc(const rpc::RpcRecord& record) {
 
 void log_http(const rest::HttpRecord& record) {
     const double ms = std::chrono::duration<double, std::milli>(record.elapsed).count();
-    spdlog::info("http {} {} {} {:.1f} ms in {} out {}", service::quoted(record.method), service::quoted(record.target), record.status, ms,
-                 record.bytes_in, record.bytes_out);
+    spdlog::info("http {} {} {} {:.1f} ms in {} out {}", service::quoted(record.method), service::quoted(record.target),
+                 record.status, ms, record.bytes_in, record.bytes_out);
 }
 
 }  // namespace vsplit::ops

@@ -10,7 +10,8 @@ namespace vsplit::rest {
 BodyReader::BodyReader(beast::tcp_stream& stream, beast::flat_buffer& buffer, RequestParser& parser, const RestLimits& limits)
     : stream_(stream), buffer_(buffer), parser_(parser), limits_(limits) {
     const auto expect = parser.get()[http::field::expect];
-    client_waits_ = !parser.is_done() && parser.get().version() >= 11 && same_token({expect.data(), expect.size()}, "100-continue");
+    client_waits_ =
+        !parser.is_done() && parser.get().version() >= 11 && same_token({expect.data(), expect.size()}, "100-continue");
 }
 
 std::optional<std::uint64_t> BodyReader::declared_size() const {
@@ -35,12 +36,14 @@ Awaitable<ErrorCode> BodyReader::say_continue() {
 
 Error BodyReader::failure(const ErrorCode& code) const {
     if (code == beast::error::timeout) {
-        return {Cause::kDeadlineExceeded, "the body stopped after " + std::to_string(received_) + " bytes or came too slowly", ""};
+        return {Cause::kDeadlineExceeded, "the body stopped after " + std::to_string(received_) + " bytes or came too slowly",
+                ""};
     }
-    const bool broken = code.category() == make_error_code(http::error::bad_chunk).category() && code != http::error::partial_message &&
-                        code != http::error::end_of_stream;
+    const bool broken = code.category() == make_error_code(http::error::bad_chunk).category() &&
+                        code != http::error::partial_message && code != http::error::end_of_stream;
     if (broken) {
-        return {Cause::kMalformedInput, "the body breaks HTTP after " + std::to_string(received_) + " bytes: " + code.message(), ""};
+        return {Cause::kMalformedInput, "the body breaks HTTP after " + std::to_string(received_) + " bytes: " + code.message(),
+                ""};
     }
     return {Cause::kCancelled, "the client is gone after " + std::to_string(received_) + " bytes of the body", ""};
 }

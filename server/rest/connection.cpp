@@ -16,27 +16,31 @@ constexpr std::size_t kLingerBytes = std::size_t{8} << 20;
 
 std::optional<Problem> header_problem(const ErrorCode& why, const RestLimits& limits) {
     if (why == http::error::header_limit || why == http::error::buffer_overflow) {
-        return http_problem(431, Cause::kLimitExceeded,
-                            "first line and header are longer than " + std::to_string(limits.header_bytes) + " bytes, the server's limit");
+        return http_problem(
+            431, Cause::kLimitExceeded,
+            "first line and header are longer than " + std::to_string(limits.header_bytes) + " bytes, the server's limit");
     }
     if (why == http::error::bad_version) {
-        return http_problem(505, Cause::kUnsupported, "the HTTP version is not one that is spoken here; accepted are 1.0 and 1.1");
+        return http_problem(505, Cause::kUnsupported,
+                            "the HTTP version is not one that is spoken here; accepted are 1.0 and 1.1");
     }
-    const bool broken = why.category() == make_error_code(http::error::bad_chunk).category() && why != http::error::end_of_stream &&
-                        why != http::error::partial_message;
+    const bool broken = why.category() == make_error_code(http::error::bad_chunk).category() &&
+                        why != http::error::end_of_stream && why != http::error::partial_message;
     if (!broken) return std::nullopt;  // gone, or too slow: there is nobody to tell
     return http_problem(400, Cause::kMalformedInput, "not an HTTP request: " + why.message());
 }
 
 std::optional<Problem> check_header(const http::request<http::buffer_body>& request) {
     if (request.version() != 10 && request.version() != 11) {
-        return http_problem(505, Cause::kUnsupported, "the HTTP version is not one that is spoken here; accepted are 1.0 and 1.1");
+        return http_problem(505, Cause::kUnsupported,
+                            "the HTTP version is not one that is spoken here; accepted are 1.0 and 1.1");
     }
     if (request.version() == 11 && request.count(http::field::host) != 1) {
         return http_problem(400, Cause::kMalformedInput, "an HTTP/1.1 request has one Host field", "Host");
     }
     if (request.method() == http::verb::unknown) {
-        return http_problem(501, Cause::kUnsupported, "no such method is known; accepted are DELETE, GET, HEAD, OPTIONS, POST and PUT");
+        return http_problem(501, Cause::kUnsupported,
+                            "no such method is known; accepted are DELETE, GET, HEAD, OPTIONS, POST and PUT");
     }
     const auto expect = request[http::field::expect];
     if (!expect.empty() && !beast::iequals(expect, "100-continue")) {
@@ -53,6 +57,8 @@ Connection::Connection(net::ip::tcp::socket socket, Gateway& gateway, HttpObserv
     buffer_.max_size(gateway.limits().header_bytes + gateway.limits().ahead_bytes + kOneRead);
     ErrorCode ignored;
     stream_.socket().set_option(net::ip::tcp::no_delay(true), ignored);
+    // LeaveWatch reads when the socket is said to be readable, which is not always so.
+    stream_.socket().non_blocking(true, ignored);
 }
 
 void Connection::drain() {
@@ -115,8 +121,8 @@ Awaitable<bool> Connection::serve_one(bool last) {
     co_await answer(exchange);
     co_await exchange.leave_watch().stop();
     if (observer_) {
-        observer_({std::string(exchange.method()), std::string(exchange.target()), exchange.response().status(), exchange.body().received(),
-                   exchange.response().sent(), std::chrono::steady_clock::now() - start});
+        observer_({std::string(exchange.method()), std::string(exchange.target()), exchange.response().status(),
+                   exchange.body().received(), exchange.response().sent(), std::chrono::steady_clock::now() - start});
     }
     const bool more = exchange.response().keeps_alive() && exchange.body().at_end();
     if (!exchange.body().at_end()) co_await linger();

@@ -13,7 +13,7 @@ namespace vsplit::rest {
 /// One request that was answered, or cut off.
 struct HttpRecord {
     std::string method;
-    std::string target;  ///< as the client wrote it: any bytes
+    std::string target;   ///< as the client wrote it: any bytes
     unsigned status = 0;  ///< 0 when no answer was begun
     std::uint64_t bytes_in = 0;
     std::uint64_t bytes_out = 0;

@@ -15,8 +15,8 @@ struct CorsAnswer {
     HeaderFields fields;  ///< for the answer
 };
 
-/// `origin` and `host` are the request's header fields; `allowed` are origins ("https://example.org"), or "*" for any. A page that
-/// the server itself served is no other origin. O(allowed).
+/// `origin` and `host` are the request's header fields; `allowed` are origins ("https://example.org"), or "*" for any. A page
+/// that the server itself served is no other origin. O(allowed).
 [[nodiscard]] CorsAnswer check_origin(std::string_view origin, std::string_view host, std::span<const std::string> allowed);
 
 /// The further fields of the answer to a preflight.

@@ -58,9 +58,9 @@ protected:
         return oneof == nullptr ? nullptr : event.GetReflection()->GetOneofFieldDescriptor(event, oneof);
     }
 
-    Exchange& exchange_;        // NOLINT(cppcoreguidelines-non-private-member-variables-in-classes)
+    Exchange& exchange_;          // NOLINT(cppcoreguidelines-non-private-member-variables-in-classes)
     const pb::Descriptor& type_;  // NOLINT(cppcoreguidelines-non-private-member-variables-in-classes)
-    const Tools tools_;         // NOLINT(cppcoreguidelines-non-private-member-variables-in-classes)
+    const Tools tools_;           // NOLINT(cppcoreguidelines-non-private-member-variables-in-classes)
 };
 
 // application/json: the last event's content, once it is there.

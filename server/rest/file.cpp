@@ -24,7 +24,7 @@ public:
     /// Goes to the next chunk; false at the end, and where a chunk is none.
     Awaitable<bool> next() {
         const std::optional<grpc::ByteBuffer> buffer = co_await call_->read();
-        co_return buffer && from_buffer(*buffer, *chunk_);
+        co_return buffer&& from_buffer(*buffer, *chunk_);
     }
 
     [[nodiscard]] std::string_view data() { return text(shape_.data, data_); }
@@ -81,8 +81,8 @@ ResponseHead head_of(const Exchange& exchange, FileStream& file, const ByteRange
     if (range.kind == ByteRange::Kind::kPart) {
         head.status = 206;
         head.length = range.last - range.first + 1;
-        head.fields.emplace_back("Content-Range", "bytes " + std::to_string(range.first) + '-' + std::to_string(range.last) + '/' +
-                                                      std::to_string(file.size()));
+        head.fields.emplace_back("Content-Range", "bytes " + std::to_string(range.first) + '-' + std::to_string(range.last) +
+                                                      '/' + std::to_string(file.size()));
     } else {
         head.gzip = accepts_encoding(exchange.header(http::field::accept_encoding), "gzip");
     }
@@ -110,9 +110,9 @@ Awaitable<void> send_file(Exchange& exchange, FileStream& file) {
     // If-Range needs a validator, and there is none that would fit: then the whole is what it asks for.
     if (exchange.header(http::field::if_range).empty()) range = parse_range(exchange.header(http::field::range), file.size());
     if (range.kind == ByteRange::Kind::kUnsatisfiable) {
-        Problem problem = http_problem(416, Cause::kInvalidOption,
-                                       "the range begins behind the end of the file, which has " + std::to_string(file.size()) + " bytes",
-                                       "Range");
+        Problem problem = http_problem(
+            416, Cause::kInvalidOption,
+            "the range begins behind the end of the file, which has " + std::to_string(file.size()) + " bytes", "Range");
         problem.content_range = "bytes */" + std::to_string(file.size());
         co_await exchange.fail(problem);
         co_return co_await file.give_up(false);

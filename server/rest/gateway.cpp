@@ -22,8 +22,8 @@ Problem no_such_path(const std::string& path) {
 }
 
 Problem wrong_method(const Exchange& exchange, std::string allowed) {
-    Problem problem = http_problem(405, Cause::kUnsupported,
-                                   "the path has no " + wire::valid_utf8(exchange.method(), kQuotedBytes) + "; it has " + allowed);
+    Problem problem = http_problem(
+        405, Cause::kUnsupported, "the path has no " + wire::valid_utf8(exchange.method(), kQuotedBytes) + "; it has " + allowed);
     problem.allow = std::move(allowed);
     return problem;
 }
@@ -58,8 +58,7 @@ Expected<std::unique_ptr<Gateway>> Gateway::make(Backend backend, RestOptions op
     if (!schema) return schema.error();
     Expected<Router> router = Router::make(**schema);
     if (!router) return router.error();
-    return std::unique_ptr<Gateway>(
-        new Gateway(std::move(backend), std::move(options), *std::move(schema), *std::move(router)));
+    return std::unique_ptr<Gateway>(new Gateway(std::move(backend), std::move(options), *std::move(schema), *std::move(router)));
 }
 
 ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& request) const {

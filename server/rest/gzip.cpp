@@ -12,7 +12,8 @@ struct Gzip::Stream : z_stream {};
 Gzip::Gzip() : stream_(std::make_unique<Stream>()) {
     constexpr int kGzipWindow = 15 + 16;  // zlib's largest window, with gzip's header instead of zlib's
     constexpr int kMemory = 8;
-    if (deflateInit2(stream_.get(), Z_BEST_SPEED, Z_DEFLATED, kGzipWindow, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
+    if (deflateInit2(stream_.get(), Z_BEST_SPEED, Z_DEFLATED, kGzipWindow, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
+        throw std::bad_alloc();
 }
 
 Gzip::~Gzip() { deflateEnd(stream_.get()); }

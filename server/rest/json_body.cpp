@@ -131,15 +131,17 @@ bool accepts_json(const Exchange& exchange) {
 }
 
 Problem not_acceptable(std::string_view offered) {
-    return http_problem(406, Cause::kUnsupported, "nothing that Accept names is offered here; offered is " + std::string(offered), "Accept");
+    return http_problem(406, Cause::kUnsupported, "nothing that Accept names is offered here; offered is " + std::string(offered),
+                        "Accept");
 }
 
 Problem wrong_body_type(const Exchange& exchange, std::string_view accepted) {
     constexpr std::size_t kQuoted = 100;
     const std::string_view type = media_type(exchange.header(http::field::content_type));
-    return http_problem(415, Cause::kUnsupported,
-                        "the body's Content-Type is \"" + wire::valid_utf8(type, kQuoted) + "\"; accepted is " + std::string(accepted),
-                        "Content-Type");
+    return http_problem(
+        415, Cause::kUnsupported,
+        "the body's Content-Type is \"" + wire::valid_utf8(type, kQuoted) + "\"; accepted is " + std::string(accepted),
+        "Content-Type");
 }
 
 }  // namespace vsplit::rest

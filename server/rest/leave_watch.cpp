@@ -23,9 +23,8 @@ void LeaveWatch::start(std::function<void()> on_leave) {
     }
     state_ = std::make_shared<State>(
         State{stream_, buffer_, most_ahead_, std::move(on_leave), std::make_shared<Signal>(stream_.get_executor()), false});
-    net::co_spawn(stream_.get_executor(), watch(state_), [state = state_](const std::exception_ptr& /*bad_alloc*/) {
-        state->ended->set();
-    });
+    net::co_spawn(stream_.get_executor(), watch(state_),
+                  [state = state_](const std::exception_ptr& /*bad_alloc*/) { state->ended->set(); });
 }
 
 Awaitable<void> LeaveWatch::stop() {

@@ -20,11 +20,11 @@ struct ChunkShape {
 
 /// What HTTP makes of an rpc.
 enum class RpcShape {
-    kUnary,     ///< JSON in, JSON out
-    kEvents,    ///< JSON in, a stream of messages out
-    kFile,      ///< JSON in, a file out: a stream of chunks
-    kUpload,    ///< the body as it is in, as a stream of chunks; JSON out
-    kNone,      ///< nothing HTTP could carry: both sides stream, or a stream of messages goes in
+    kUnary,   ///< JSON in, JSON out
+    kEvents,  ///< JSON in, a stream of messages out
+    kFile,    ///< JSON in, a file out: a stream of chunks
+    kUpload,  ///< the body as it is in, as a stream of chunks; JSON out
+    kNone,    ///< nothing HTTP could carry: both sides stream, or a stream of messages goes in
 };
 
 [[nodiscard]] RpcShape shape_of(const google::protobuf::MethodDescriptor& rpc);

@@ -77,7 +77,9 @@ private:
     [[nodiscard]] Json request_body() const {
         static const Json binary{{"schema", Json::object()}};
         if (shape_of(rpc_) == RpcShape::kUpload) {
-            return {{"required", true}, {"description", "The file as it is, of any size."}, {"content", {{"application/octet-stream", binary}}}};
+            return {{"required", true},
+                    {"description", "The file as it is, of any size."},
+                    {"content", {{"application/octet-stream", binary}}}};
         }
         if (route_.body.empty()) return {};
         const Json json{{"schema", body_schema()}};
@@ -95,7 +97,8 @@ private:
         Json all;
         all["200"] = success();
         if (shape_of(rpc_) == RpcShape::kFile) {
-            all["206"] = {{"description", "The range of the file that Range asks for."}, {"content", {{"application/octet-stream", Json::object()}}}};
+            all["206"] = {{"description", "The range of the file that Range asks for."},
+                          {"content", {{"application/octet-stream", Json::object()}}}};
         }
         all["default"] = {{"$ref", "#/components/responses/Problem"}};
         return all;
@@ -109,20 +112,23 @@ private:
                         {"headers", {{"Content-Disposition", {{"description", "Its name."}, {"schema", {{"type", "string"}}}}}}},
                         {"content", {{"application/octet-stream", Json::object()}}}};
             case RpcShape::kEvents:
-                return {{"description",
-                         "application/json: waits and gives what the last event holds. application/x-ndjson: an event a line, without "
-                         "those that carry bytes; the last line is the result or an error, which is a Problem. application/x-vsplit: "
-                         "every event as protobuf, its length before it as a varint."},
-                        {"content",
-                         {{std::string(kJsonType), {{"schema", last_word(type)}}},
-                          {"application/x-ndjson", {{"schema", schemas_.reference(type)}}},
-                          {"application/x-vsplit", Json::object()}}}};
+                return {
+                    {"description",
+                     "application/json: waits and gives what the last event holds. application/x-ndjson: an event a line, "
+                     "without "
+                     "those that carry bytes; the last line is the result or an error, which is a Problem. application/x-vsplit: "
+                     "every event as protobuf, its length before it as a varint."},
+                    {"content",
+                     {{std::string(kJsonType), {{"schema", last_word(type)}}},
+                      {"application/x-ndjson", {{"schema", schemas_.reference(type)}}},
+                      {"application/x-vsplit", Json::object()}}}};
             case RpcShape::kUnary:
             case RpcShape::kUpload:
             case RpcShape::kNone:
                 break;
         }
-        return {{"description", first_sentence(comment_of(type)) + "."}, {"content", {{std::string(kJsonType), {{"schema", schemas_.reference(type)}}}}}};
+        return {{"description", first_sentence(comment_of(type)) + "."},
+                {"content", {{std::string(kJsonType), {{"schema", schemas_.reference(type)}}}}}};
     }
 
     // What a stream that succeeds ends with: the last kind of event that carries no bytes and is no error.
@@ -130,7 +136,8 @@ private:
         const pb::OneofDescriptor* const oneof = sole_oneof(type);
         for (int i = oneof == nullptr ? 0 : oneof->field_count(); i > 0; --i) {
             const pb::Descriptor* const kind = oneof->field(i - 1)->message_type();
-            if (kind != nullptr && !has_bytes(*kind) && kind->full_name() != "google.rpc.Status") return schemas_.reference(*kind);
+            if (kind != nullptr && !has_bytes(*kind) && kind->full_name() != "google.rpc.Status")
+                return schemas_.reference(*kind);
         }
         return schemas_.reference(type);
     }
@@ -143,17 +150,18 @@ private:
 Json problem_schema() {
     Json causes = Json::array();
     for (const wire::ErrorRow& row : wire::error_table()) causes.push_back(cause_name(row.cause));
-    return {{"type", "object"},
-            {"description", "RFC 9457: what went wrong, with the cause and words that gRPC tells too."},
-            {"required", {"title", "status", "detail", "cause"}},
-            {"properties",
-             {{"title", {{"type", "string"}, {"description", "The HTTP status in words."}}},
-              {"status", {{"type", "integer"}, {"description", "The HTTP status."}}},
-              {"detail", {{"type", "string"}, {"description", "What was wrong, where, and what would be accepted."}}},
-              {"cause", {{"type", "string"}, {"enum", causes}}},
-              {"field", {{"type", "string"}, {"description", "The field of the request that is at fault, where one is."}}},
-              {"retryAfter",
-               {{"type", "integer"}, {"description", "Seconds after which the same request may succeed, where waiting helps."}}}}}};
+    return {
+        {"type", "object"},
+        {"description", "RFC 9457: what went wrong, with the cause and words that gRPC tells too."},
+        {"required", {"title", "status", "detail", "cause"}},
+        {"properties",
+         {{"title", {{"type", "string"}, {"description", "The HTTP status in words."}}},
+          {"status", {{"type", "integer"}, {"description", "The HTTP status."}}},
+          {"detail", {{"type", "string"}, {"description", "What was wrong, where, and what would be accepted."}}},
+          {"cause", {{"type", "string"}, {"enum", causes}}},
+          {"field", {{"type", "string"}, {"description", "The field of the request that is at fault, where one is."}}},
+          {"retryAfter",
+           {{"type", "integer"}, {"description", "Seconds after which the same request may succeed, where waiting helps."}}}}}};
 }
 
 Json page(const char* id, const char* summary, const char* type) {
@@ -167,7 +175,8 @@ Json page(const char* id, const char* summary, const char* type) {
 }
 
 std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
     return text;
 }
 
@@ -176,7 +185,8 @@ std::string lower(std::string text) {
 std::string openapi_document(const Schema& schema, const Router& router, std::string_view version) {
     JsonSchemas schemas;
     Json document{{"openapi", "3.1.0"}};
-    document["info"] = {{"title", "vsplit"}, {"version", version}, {"license", {{"name", "Apache-2.0"}, {"identifier", "Apache-2.0"}}}};
+    document["info"] = {
+        {"title", "vsplit"}, {"version", version}, {"license", {{"name", "Apache-2.0"}, {"identifier", "Apache-2.0"}}}};
     document["servers"] = {{{"url", "/"}}};
     document["tags"] = Json::array();
     for (const pb::ServiceDescriptor* service : schema.services()) {

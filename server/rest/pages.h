@@ -21,9 +21,9 @@ using Pages = std::map<std::string, Page, std::less<>>;
 
 /// What those pages are made of that are always there.
 struct Operations {
-    std::function<bool()> ready;             ///< whether new work is taken
-    std::function<std::string()> metrics;    ///< in Prometheus' text format; empty for no such page
-    std::string openapi;                     ///< the document
+    std::function<bool()> ready;           ///< whether new work is taken
+    std::function<std::string()> metrics;  ///< in Prometheus' text format; empty for no such page
+    std::string openapi;                   ///< the document
 };
 
 /// "/", "/healthz", "/metrics" and "/openapi.json". What is not ready is a problem, so kReadyPath is none of them.

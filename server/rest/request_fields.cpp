@@ -62,7 +62,8 @@ public:
             case Field::CPPTYPE_INT64:
                 return number<std::int64_t>(&Reflection::SetInt64, &Reflection::AddInt64, "a whole number of 64 bits");
             case Field::CPPTYPE_UINT32:
-                return number<std::uint32_t>(&Reflection::SetUInt32, &Reflection::AddUInt32, "a whole number from 0 to 4294967295");
+                return number<std::uint32_t>(&Reflection::SetUInt32, &Reflection::AddUInt32,
+                                             "a whole number from 0 to 4294967295");
             case Field::CPPTYPE_UINT64:
                 return number<std::uint64_t>(&Reflection::SetUInt64, &Reflection::AddUInt64, "a whole number of 0 or more");
             case Field::CPPTYPE_DOUBLE:
@@ -135,8 +136,9 @@ private:
             field_.is_repeated() ? *reflection.AddMessage(&message_, &field_) : *reflection.MutableMessage(&message_, &field_);
         const bool quotable = text_.find_first_of("\"\\") == std::string_view::npos;
         if (quotable && wire::from_json('"' + std::string(text_) + '"', value)) return Done{};
-        return bad_value(name_, text_, "what JSON writes for a " + field_.message_type()->full_name() +
-                                           "; the fields of a message are named with a dot");
+        return bad_value(
+            name_, text_,
+            "what JSON writes for a " + field_.message_type()->full_name() + "; the fields of a message are named with a dot");
     }
 
     pb::Message& message_;

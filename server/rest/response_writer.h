@@ -17,10 +17,10 @@ namespace vsplit::rest {
 /// What stands before an answer's body.
 struct ResponseHead {
     unsigned status = 200;
-    std::string content_type;              ///< empty for an answer that has no body
-    std::optional<std::uint64_t> length;   ///< of the body; empty for one that ends when it ends
+    std::string content_type;             ///< empty for an answer that has no body
+    std::optional<std::uint64_t> length;  ///< of the body; empty for one that ends when it ends
     HeaderFields fields;
-    bool gzip = false;                     ///< makes the length unknown
+    bool gzip = false;  ///< makes the length unknown
 };
 
 /// What of the request decides how an answer is written.

@@ -16,8 +16,8 @@ class RestServer {
 public:
     /// Serves at `host`:`port` (0 for a free one) from now on. \return UNAVAILABLE when it cannot listen there, with the reason;
     /// what Gateway::make returns.
-    [[nodiscard]] static Expected<std::unique_ptr<RestServer>> start(const std::string& host, const std::string& port, Backend backend,
-                                                                     RestOptions options, HttpObserver observer);
+    [[nodiscard]] static Expected<std::unique_ptr<RestServer>> start(const std::string& host, const std::string& port,
+                                                                     Backend backend, RestOptions options, HttpObserver observer);
     ~RestServer();
     RestServer(const RestServer&) = delete;
     RestServer& operator=(const RestServer&) = delete;

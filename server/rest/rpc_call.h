@@ -18,8 +18,8 @@
 
 namespace vsplit::rest {
 
-/// How many rpcs there are. The channel must not be let go by gRPC's own thread, which would then wait for itself: whoever owns it
-/// waits for the last rpc first. Thread-safe.
+/// How many rpcs there are. The channel must not be let go by gRPC's own thread, which would then wait for itself: whoever owns
+/// it waits for the last rpc first. Thread-safe.
 class LiveCalls {
 public:
     void begin() {
@@ -43,18 +43,19 @@ private:
     std::size_t count_ = 0;
 };
 
-/// One rpc of any kind, in messages that nobody has taken apart: what is on the wire. For one coroutine on one strand. Whoever lets
-/// go of one that is not finished cancels it.
+/// One rpc of any kind, in messages that nobody has taken apart: what is on the wire. For one coroutine on one strand. Whoever
+/// lets go of one that is not finished cancels it.
 ///
-/// A read is always under way, so that one message more than was asked for is here: in process, gRPC 1.51 drops the message that a
-/// server sends together with its status when nobody waits for it.
+/// A read is always under way, so that one message more than was asked for is here: in process, gRPC 1.51 drops the message that
+/// a server sends together with its status when nobody waits for it.
 class RpcCall : public std::enable_shared_from_this<RpcCall> {
 public:
     using Metadata = std::multimap<std::string, std::string>;
 
     /// Begins it. `method` is "/package.Service/Method".
-    [[nodiscard]] static std::shared_ptr<RpcCall> start(grpc::GenericStub& stub, const std::string& method, const Metadata& metadata,
-                                                        LiveCalls& live, const net::any_io_executor& executor);
+    [[nodiscard]] static std::shared_ptr<RpcCall> start(grpc::GenericStub& stub, const std::string& method,
+                                                        const Metadata& metadata, LiveCalls& live,
+                                                        const net::any_io_executor& executor);
 
     RpcCall(const RpcCall&) = delete;
     RpcCall& operator=(const RpcCall&) = delete;

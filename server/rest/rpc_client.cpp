@@ -17,8 +17,8 @@ std::shared_ptr<RpcCall> RpcClient::start(Exchange& exchange, const pb::MethodDe
     return RpcCall::start(stub_, '/' + rpc.service()->full_name() + '/' + rpc.name(), metadata, live_, exchange.executor());
 }
 
-Awaitable<Expected<grpc::ByteBuffer>> RpcClient::call(Exchange& exchange, const pb::MethodDescriptor& rpc, const pb::Message& request,
-                                                      WhenLeft when_left) {
+Awaitable<Expected<grpc::ByteBuffer>> RpcClient::call(Exchange& exchange, const pb::MethodDescriptor& rpc,
+                                                      const pb::Message& request, WhenLeft when_left) {
     const std::shared_ptr<RpcCall> call = start(exchange, rpc);
     if (when_left == WhenLeft::kCancel) cancel_when_left(exchange, call);
     co_await call->write(to_buffer(request), true);

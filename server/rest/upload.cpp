@@ -27,7 +27,8 @@ std::optional<Problem> refuse_body(const Exchange& exchange) {
     }
     const std::string_view coding = exchange.header(http::field::content_encoding);
     if (!coding.empty() && !same_token(coding, "identity")) {
-        return http_problem(415, Cause::kUnsupported, "the body has a Content-Encoding; accepted is the file as it is", "Content-Encoding");
+        return http_problem(415, Cause::kUnsupported, "the body has a Content-Encoding; accepted is the file as it is",
+                            "Content-Encoding");
     }
     return std::nullopt;
 }
@@ -61,8 +62,8 @@ private:
         if (shape_.size != nullptr && size) reflection.SetUInt64(&chunk, shape_.size, *size);
         if (!co_await call_->write(to_buffer(chunk), false)) co_return false;
         chunk.Clear();
-        // An empty part more: it is taken when the first one has been accepted or refused, and only then a client that waits is told
-        // to go on. The news of a refusal comes a moment later; where it does not, the client has sent for nothing.
+        // An empty part more: it is taken when the first one has been accepted or refused, and only then a client that waits is
+        // told to go on. The news of a refusal comes a moment later; where it does not, the client has sent for nothing.
         if (exchange_.body().client_waits()) {
             const bool taken = co_await call_->write(to_buffer(chunk), false);
             if (!taken) co_return false;

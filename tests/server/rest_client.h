@@ -16,7 +16,7 @@
 namespace vsplit::test {
 
 struct HttpReply {
-    unsigned status = 0;  ///< 0: no answer came
+    unsigned status = 0;                        ///< 0: no answer came
     std::map<std::string, std::string> fields;  ///< by name as it was written
     std::string body;
     bool whole = false;  ///< the answer came to its end
@@ -30,7 +30,8 @@ public:
     explicit HttpClient(int port);
 
     /// Sends the request and reads its answer.
-    [[nodiscard]] HttpReply ask(const std::string& method, const std::string& target, const Fields& fields = {}, const std::string& body = "");
+    [[nodiscard]] HttpReply ask(const std::string& method, const std::string& target, const Fields& fields = {},
+                                const std::string& body = "");
 
     void send(std::string_view bytes);
     [[nodiscard]] HttpReply read_reply(bool to_head = false);

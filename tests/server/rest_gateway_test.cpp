@@ -20,8 +20,9 @@ const Fields kJson{{"Content-Type", "application/json"}};
 
 ::testing::AssertionResult is_problem(const HttpReply& reply, unsigned status, const std::string& cause) {
     if (reply.status != status || !reply.whole || reply.fields.count("Content-Type") == 0 ||
-        reply.fields.at("Content-Type") != "application/problem+json" || json_at(reply.body, "/status") != std::to_string(status) ||
-        json_at(reply.body, "/cause") != cause || json_at(reply.body, "/detail").empty() || json_at(reply.body, "/title").empty()) {
+        reply.fields.at("Content-Type") != "application/problem+json" ||
+        json_at(reply.body, "/status") != std::to_string(status) || json_at(reply.body, "/cause") != cause ||
+        json_at(reply.body, "/detail").empty() || json_at(reply.body, "/title").empty()) {
         return ::testing::AssertionFailure() << reply.status << ' ' << reply.body;
     }
     return ::testing::AssertionSuccess();
@@ -102,7 +103,8 @@ TEST_F(RestTest, AnUploadThatIsCutOffChangesNothing) {
 TEST_F(RestTest, TellsToGoOnOnlyWhenTheUploadIsAccepted) {
     const std::string id = session_of(cube());
     const std::string file = file_of(icosphere(1));
-    const std::string rest = " HTTP/1.1\r\nHost: t\r\nExpect: 100-continue\r\nContent-Length: " + std::to_string(file.size()) + "\r\n\r\n";
+    const std::string rest =
+        " HTTP/1.1\r\nHost: t\r\nExpect: 100-continue\r\nContent-Length: " + std::to_string(file.size()) + "\r\n\r\n";
     HttpClient client(server_.port());
     client.send("PUT /v1/sessions/" + id + "/mesh" + rest);
     EXPECT_EQ(client.read_line(), "HTTP/1.1 100 Continue\r");
@@ -156,7 +158,8 @@ TEST_F(RestTest, MethodsAnswerAsAcceptAsks) {
 
 TEST_F(RestTest, BinaryEventsAreThoseOfGrpc) {
     const std::string id = session_of(icosphere(3));
-    ASSERT_EQ(ask("POST", "/v1/sessions/" + id + ":improve", kJson, R"({"options": {"faces": 600, "tolerance": 0.05}})").status, 200U);
+    ASSERT_EQ(ask("POST", "/v1/sessions/" + id + ":improve", kJson, R"({"options": {"faces": 600, "tolerance": 0.05}})").status,
+              200U);
     const HttpReply reply = ask("POST", "/v1/sessions/" + id + ":setResolution",
                                 {{"Content-Type", "application/json"}, {"Accept", "application/x-vsplit"}}, R"({"faces": 500})");
     ASSERT_EQ(reply.status, 200U);
@@ -242,7 +245,8 @@ TEST_F(RestTest, RefusesWhatHttpHasANameFor) {
     EXPECT_EQ(method.fields.at("Allow"), "DELETE, GET, HEAD, OPTIONS");
     EXPECT_EQ(ask("OPTIONS", session + ":improve").fields.at("Allow"), "OPTIONS, POST");
     EXPECT_TRUE(is_problem(ask("GET", session, {{"Accept", "text/html"}}), 406, "UNSUPPORTED"));
-    EXPECT_TRUE(is_problem(ask("POST", session + ":improve", {{"Accept", "text/html, application/json;q=0"}}), 406, "UNSUPPORTED"));
+    EXPECT_TRUE(
+        is_problem(ask("POST", session + ":improve", {{"Accept", "text/html, application/json;q=0"}}), 406, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("POST", session + ":improve", {{"Content-Type", "text/plain"}}, "{}"), 415, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("PUT", session + "/mesh", kJson, "{}"), 415, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("POST", session + ":improve", kJson, "{\"optoins\": {}}"), 400, "MALFORMED_INPUT"));
@@ -261,7 +265,8 @@ TEST_F(RestTest, DeepAndHugeJsonIsRefused) {
     for (int i = 0; i < 20'000; ++i) deep += "{\"options\":";
     EXPECT_TRUE(is_problem(ask("POST", target, kJson, deep), 400, "MALFORMED_INPUT"));
     HttpClient client(server_.port());
-    client.send("POST " + target + " HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nContent-Length: 99999999999\r\n\r\n");
+    client.send("POST " + target +
+                " HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nContent-Length: 99999999999\r\n\r\n");
     EXPECT_TRUE(is_problem(client.read_reply(), 413, "LIMIT_EXCEEDED"));
 }
 
@@ -334,10 +339,11 @@ TEST(RestShutdownTest, LetsWhatIsBeingAnsweredEnd) {
     const std::string id = session_with(server.grpc().stub(), icosphere(3));
     HttpClient client(server.port());
     const std::string body = R"({"options": {"faces": 600, "tolerance": 0.05}})";
-    client.send("POST /v1/sessions/" + id + ":improve HTTP/1.1\r\nHost: t\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
-                body);
+    client.send("POST /v1/sessions/" + id + ":improve HTTP/1.1\r\nHost: t\r\nContent-Length: " + std::to_string(body.size()) +
+                "\r\n\r\n" + body);
     ASSERT_TRUE(eventually([&] {
-        return server.grpc().service().load().methods_running == 1 || !get_session(server.grpc().stub(), id).message.representations().empty();
+        return server.grpc().service().load().methods_running == 1 ||
+               !get_session(server.grpc().stub(), id).message.representations().empty();
     }));
     std::thread stop([&] { server.rest().shutdown(std::chrono::seconds(20)); });
     EXPECT_EQ(client.read_reply().status, 200U);

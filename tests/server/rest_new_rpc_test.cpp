@@ -19,7 +19,8 @@ public:
         return {};
     }
 
-    grpc::Status Count(grpc::ServerContext* /*context*/, const CountRequest* request, grpc::ServerWriter<CountReply>* writer) override {
+    grpc::Status Count(grpc::ServerContext* /*context*/, const CountRequest* request,
+                       grpc::ServerWriter<CountReply>* writer) override {
         for (int i = 1; i <= request->up_to(); ++i) {
             CountReply reply;
             reply.set_number(i);
@@ -77,7 +78,8 @@ TEST_F(NewRpcTest, IsDescribedWithItsComments) {
     const nlohmann::json& greet = document["paths"]["/v1/probes/{name}"]["get"];
     EXPECT_EQ(greet["summary"], "Greets whom the path names");
     EXPECT_EQ(document["components"]["schemas"]["GreetReply"]["properties"]["text"]["description"], "The words.");
-    EXPECT_TRUE(document["paths"]["/v1/probes/{name}:count"]["post"]["responses"]["200"]["content"].contains("application/x-ndjson"));
+    EXPECT_TRUE(
+        document["paths"]["/v1/probes/{name}:count"]["post"]["responses"]["200"]["content"].contains("application/x-ndjson"));
     EXPECT_EQ(document.dump().find("Hidden"), std::string::npos);
 }
 

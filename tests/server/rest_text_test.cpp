@@ -46,7 +46,8 @@ TEST(PathTemplateTest, RefusesOtherPaths) {
 }
 
 TEST(PathTemplateTest, RefusesWhatIsNoTemplate) {
-    for (const char* text : {"", "/", "v1", "/v1/", "/{", "/{}", "/{a", "/a}", "/**/a", "/{a=}", "/{a=b/}", "/a:", "/a*", "/{a}{b}"}) {
+    for (const char* text :
+         {"", "/", "v1", "/v1/", "/{", "/{}", "/{a", "/a}", "/**/a", "/{a=}", "/{a=b/}", "/a:", "/a*", "/{a}{b}"}) {
         EXPECT_FALSE(PathTemplate::parse(text)) << text;
     }
 }
