@@ -44,8 +44,8 @@ template <class Work>
 Awaitable<decltype(std::declval<Work&>()())> off_thread(net::thread_pool& pool, Work work) {
     using Result = decltype(work());
     // The coroutine's arguments live in its frame, a lambda's captures would not. Asio wants a result that can be empty.
-    constexpr auto run = [](Work task) -> Awaitable<std::optional<Result>> { co_return task(); };
-    std::optional<Result> result = co_await net::co_spawn(pool, run(std::move(work)), net::use_awaitable);
+    constexpr auto kRun = [](Work task) -> Awaitable<std::optional<Result>> { co_return task(); };
+    std::optional<Result> result = co_await net::co_spawn(pool, kRun(std::move(work)), net::use_awaitable);
     co_return *std::move(result);
 }
 

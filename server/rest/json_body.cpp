@@ -16,7 +16,7 @@ namespace pb = google::protobuf;
 namespace {
 
 // What takes a thread that speaks to clients no more than a moment.
-constexpr std::size_t kShort = 64 * 1024;
+constexpr std::size_t kShort = std::size_t{64} * 1024;
 
 // Worth compressing.
 constexpr std::size_t kLong = 1400;
@@ -41,7 +41,7 @@ Awaitable<TextOrProblem> read_text(Exchange& exchange, JsonShare& share) {
     std::string text;
     for (;;) {
         // Taken as it comes, not as it is announced: a client that only claims much holds nothing.
-        constexpr std::size_t kPart = 64 * 1024;
+        constexpr std::size_t kPart = std::size_t{64} * 1024;
         const std::size_t room = std::min<std::uint64_t>(kPart, declared.value_or(limits.json_bytes + 1) - text.size());
         if (!share.grow(room)) co_return too_many_now();
         const std::size_t before = text.size();
@@ -126,8 +126,8 @@ Awaitable<void> respond_json(Exchange& exchange, const pb::Message& message, Jso
 }
 
 bool accepts_json(const Exchange& exchange) {
-    constexpr std::array offers{kJsonType};
-    return choose_media_type(exchange.header(http::field::accept), offers).has_value();
+    constexpr std::array kOffers{kJsonType};
+    return choose_media_type(exchange.header(http::field::accept), kOffers).has_value();
 }
 
 Problem not_acceptable(std::string_view offered) {

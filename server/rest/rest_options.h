@@ -13,7 +13,7 @@ struct RestLimits {
     std::size_t connections = 2000;                           ///< at a time; more are answered 503
     std::size_t requests = 10'000;                            ///< on one connection, then it is closed
     std::uint32_t header_bytes = 16 * 1024;                   ///< first line and header of a request
-    std::size_t ahead_bytes = 64 * 1024;                      ///< of requests that a client sends before it has its answer
+    std::size_t ahead_bytes = std::size_t{64} * 1024;         ///< of requests that a client sends before it has its answer
     std::uint64_t json_bytes = std::uint64_t{32} << 20;       ///< of one JSON body
     std::uint64_t all_json_bytes = std::uint64_t{256} << 20;  ///< of all JSON bodies at a time
     std::chrono::milliseconds header_time{10'000};            ///< for a whole header, from its first byte

@@ -74,7 +74,7 @@ Awaitable<bool> RpcCall::write(const grpc::ByteBuffer& message, bool last) {
 Awaitable<bool> RpcCall::over_within(std::chrono::milliseconds longest) {
     const std::shared_ptr<RpcCall> self = shared_from_this();
     constexpr std::chrono::milliseconds kStep(1);
-    net::steady_timer timer(co_await net::this_coro::executor);
+    net::steady_timer timer(written_->executor());
     for (const auto until = std::chrono::steady_clock::now() + longest; !over_ && std::chrono::steady_clock::now() < until;) {
         timer.expires_after(kStep);
         ErrorCode ignored;

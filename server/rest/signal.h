@@ -11,6 +11,8 @@ class Signal : public std::enable_shared_from_this<Signal> {
 public:
     explicit Signal(const net::any_io_executor& executor) : timer_(executor, net::steady_timer::time_point::max()) {}
 
+    [[nodiscard]] net::any_io_executor executor() { return timer_.get_executor(); }
+
     /// Any thread.
     void set() {
         net::post(timer_.get_executor(), [self = shared_from_this()] {
