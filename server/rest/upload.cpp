@@ -112,7 +112,8 @@ Awaitable<void> delete_session(Exchange& exchange, const std::string& session, T
     const pb::MethodDescriptor& rpc = *tools.json.schema.find_rpc(kDelete);
     const auto request = tools.json.schema.new_message(rpc.input_type());
     set_session(*request, session);
-    co_await tools.rpcs.call(exchange, rpc, *request, RpcClient::WhenLeft::kGoOn);
+    // Where that fails the session expires; the client hears of what failed first.
+    static_cast<void>(co_await tools.rpcs.call(exchange, rpc, *request, RpcClient::WhenLeft::kGoOn));
 }
 
 Awaitable<void> respond(Exchange& exchange, const pb::Descriptor* type, const Expected<grpc::ByteBuffer>& reply, Tools tools) {
