@@ -78,7 +78,7 @@ Cause cause_of_code(StatusCode code) {
 }
 
 // What the clock of a client can be trusted with, seconds; whatever another server says.
-constexpr std::int64_t kLongestRetry = 24 * 3600;
+constexpr std::int64_t kLongestRetry = std::int64_t{24} * 3600;
 
 void take_info(const google::rpc::ErrorInfo& info, Error& error) {
     const std::optional<Cause> cause = cause_by_name(info.reason());

@@ -174,7 +174,8 @@ TEST_F(RestTest, BinaryEventsAreThoseOfGrpc) {
         std::string bytes = event.SerializeAsString();
         std::size_t length = bytes.size();
         for (; length > 127; length >>= 7U) expected += static_cast<char>(length | 128U);
-        expected += static_cast<char>(length) + bytes;
+        expected += static_cast<char>(length);
+        expected += bytes;
     }
     EXPECT_TRUE(reader->Finish().ok());
     EXPECT_EQ(reply.body, expected);

@@ -67,14 +67,14 @@ TEST(TargetTest, TakesPathAndQueryApart) {
 }
 
 TEST(AcceptTest, ChoosesWhatIsPreferred) {
-    constexpr std::array<std::string_view, 3> offers{"application/json", "application/x-ndjson", "application/x-vsplit"};
-    EXPECT_EQ(choose_media_type("", offers), 0U);
-    EXPECT_EQ(choose_media_type("*/*", offers), 0U);
-    EXPECT_EQ(choose_media_type("Application/X-Ndjson", offers), 1U);
-    EXPECT_EQ(choose_media_type("application/*;q=0.1, application/x-vsplit;q=0.2", offers), 2U);
-    EXPECT_EQ(choose_media_type("*/*, application/json;q=0", offers), 1U);
-    EXPECT_EQ(choose_media_type("text/html", offers), std::nullopt);
-    EXPECT_EQ(choose_media_type("application/json;q=x", offers), std::nullopt);
+    constexpr std::array<std::string_view, 3> kOffers{"application/json", "application/x-ndjson", "application/x-vsplit"};
+    EXPECT_EQ(choose_media_type("", kOffers), 0U);
+    EXPECT_EQ(choose_media_type("*/*", kOffers), 0U);
+    EXPECT_EQ(choose_media_type("Application/X-Ndjson", kOffers), 1U);
+    EXPECT_EQ(choose_media_type("application/*;q=0.1, application/x-vsplit;q=0.2", kOffers), 2U);
+    EXPECT_EQ(choose_media_type("*/*, application/json;q=0", kOffers), 1U);
+    EXPECT_EQ(choose_media_type("text/html", kOffers), std::nullopt);
+    EXPECT_EQ(choose_media_type("application/json;q=x", kOffers), std::nullopt);
     EXPECT_TRUE(accepts_encoding("br, GZIP;q=0.5", "gzip"));
     EXPECT_FALSE(accepts_encoding("br, gzip;q=0", "gzip"));
     EXPECT_FALSE(accepts_encoding("", "gzip"));

@@ -78,7 +78,6 @@ protected:
         const std::size_t http = line->find(" and http://127.0.0.1:");
         ASSERT_NE(http, std::string::npos) << *line;
         address_ = line->substr(promised.size(), http - promised.size());
-        http_port_ = std::stoi(line->substr(line->rfind(':') + 1));
         channel_ = grpc::CreateChannel(address_, grpc::InsecureChannelCredentials());
         stub_ = v1::Meshing::NewStub(channel_);
     }
@@ -91,7 +90,6 @@ protected:
 
     std::unique_ptr<ServerProcess> process_;
     std::string address_;
-    int http_port_ = 0;
     std::shared_ptr<grpc::Channel> channel_;
     std::unique_ptr<Stub> stub_;
 };
