@@ -42,11 +42,15 @@ HttpReply HttpClient::read_reply(bool to_head) {
     return reply;
 }
 
-HttpReply HttpClient::ask(const std::string& method, const std::string& target, const Fields& fields, const std::string& body) {
+void HttpClient::begin(const std::string& method, const std::string& target, const Fields& fields, const std::string& body) {
     std::string text = method + ' ' + target + " HTTP/1.1\r\nHost: test\r\n";
     for (const auto& [name, value] : fields) text.append(name).append(": ").append(value).append("\r\n");
     if (!body.empty()) text += "Content-Length: " + std::to_string(body.size()) + "\r\n";
     send(text + "\r\n" + body);
+}
+
+HttpReply HttpClient::ask(const std::string& method, const std::string& target, const Fields& fields, const std::string& body) {
+    begin(method, target, fields, body);
     return read_reply(method == "HEAD");
 }
 

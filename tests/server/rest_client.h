@@ -33,6 +33,9 @@ public:
     [[nodiscard]] HttpReply ask(const std::string& method, const std::string& target, const Fields& fields = {},
                                 const std::string& body = "");
 
+    /// Sends the request only.
+    void begin(const std::string& method, const std::string& target, const Fields& fields = {}, const std::string& body = "");
+
     void send(std::string_view bytes);
     [[nodiscard]] HttpReply read_reply(bool to_head = false);
 

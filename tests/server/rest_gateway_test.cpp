@@ -187,8 +187,7 @@ TEST_F(RestTest, AClientThatLeavesCancelsItsMethod) {
         const std::size_t before = server_.grpc().finished().size();
         HttpClient client(server_.port());
         const std::string body = R"({"options": {"subdivisionSize": 0.006}})";
-        client.send("POST /v1/sessions/" + id + ":improve HTTP/1.1\r\nHost: t\r\nAccept: " + accept +
-                    "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+        client.begin("POST", "/v1/sessions/" + id + ":improve", {{"Accept", accept}}, body);
         ASSERT_TRUE(eventually([&] { return server_.grpc().service().load().methods_running == 1; }));
         client.close();
         EXPECT_TRUE(eventually([&] { return server_.grpc().finished().size() > before; }));
@@ -200,8 +199,7 @@ TEST_F(RestTest, ErrorsOfAStreamAreItsLastWord) {
     const std::string id = session_of(icosphere(3));
     const std::string body = R"({"options": {"subdivisionSize": 0.006}})";
     const auto begin = [&](HttpClient& client, const std::string& accept) {
-        client.send("POST /v1/sessions/" + id + ":improve HTTP/1.1\r\nHost: t\r\nAccept: " + accept +
-                    "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+        client.begin("POST", "/v1/sessions/" + id + ":improve", {{"Accept", accept}}, body);
     };
     HttpClient lines(server_.port());
     begin(lines, "application/x-ndjson");
