@@ -12,6 +12,17 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(vsplit_compile INTERFACE -Wno-array-bounds -Wno-maybe-uninitialized -Wno-stringop-overflow -Wno-restrict)
 endif()
 
+# For targets whose coroutines Boost.Asio runs, and those that include its headers. clang 14 has coroutines but says so in no way that
+# libstdc++ and Boost 1.74 know of, and goes wrong where it checks the types of functions as well.
+function(vsplit_coroutines target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 16)
+    target_compile_definitions(${target} PUBLIC __cpp_impl_coroutine=201902L BOOST_ASIO_HAS_CO_AWAIT BOOST_ASIO_HAS_STD_COROUTINE)
+    if(VSPLIT_SANITIZE MATCHES "undefined")
+      target_compile_options(${target} PUBLIC -fno-sanitize=function)
+    endif()
+  endif()
+endfunction()
+
 # Sanitizers hold for the whole build, tests and libraries alike.
 if(VSPLIT_SANITIZE)
   add_compile_options(-fsanitize=${VSPLIT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -1,7 +1,9 @@
 #include "wire/error_table.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdint>
 #include <string>
 
 #include "google/rpc/error_details.pb.h"
@@ -23,7 +25,7 @@ constexpr std::array kTable{
     ErrorRow{Cause::kIndexOutOfRange, StatusCode::INVALID_ARGUMENT, 422},
     ErrorRow{Cause::kNonManifold, StatusCode::FAILED_PRECONDITION, 422},
     ErrorRow{Cause::kOpenMesh, StatusCode::FAILED_PRECONDITION, 422},
-    ErrorRow{Cause::kLimitExceeded, StatusCode::RESOURCE_EXHAUSTED, 413},
+    ErrorRow{Cause::kLimitExceeded, StatusCode::RESOURCE_EXHAUSTED, 413, 429},
     ErrorRow{Cause::kInvalidOption, StatusCode::INVALID_ARGUMENT, 400},
     ErrorRow{Cause::kUnsupported, StatusCode::UNIMPLEMENTED, 501},
     ErrorRow{Cause::kNotFound, StatusCode::NOT_FOUND, 404},
@@ -75,6 +77,17 @@ Cause cause_of_code(StatusCode code) {
     }
 }
 
+// What the clock of a client can be trusted with, seconds; whatever another server says.
+constexpr std::int64_t kLongestRetry = std::int64_t{24} * 3600;
+
+void take_info(const google::rpc::ErrorInfo& info, Error& error) {
+    const std::optional<Cause> cause = cause_by_name(info.reason());
+    if (!cause) return;
+    error.cause = *cause;
+    const auto field = info.metadata().find("field");
+    if (field != info.metadata().end()) error.field = field->second;
+}
+
 }  // namespace
 
 std::span<const ErrorRow> error_table() { return kTable; }
@@ -83,6 +96,11 @@ const ErrorRow& error_row(Cause cause) {
     const auto row = static_cast<std::size_t>(cause);
     assert(row < kTable.size());
     return kTable[row];
+}
+
+int http_status(const Error& error) {
+    const ErrorRow& row = error_row(error.cause);
+    return error.retry_after > 0 ? row.http_status_later : row.http_status;
 }
 
 std::optional<Cause> cause_by_name(std::string_view name) {
@@ -103,23 +121,29 @@ grpc::Status to_status(const Error& error) {
     details.set_code(code);
     details.set_message(message);
     details.add_details()->PackFrom(info);
+    if (error.retry_after > 0) {
+        google::rpc::RetryInfo retry;
+        retry.mutable_retry_delay()->set_seconds(error.retry_after);
+        details.add_details()->PackFrom(retry);
+    }
     return {code, message, details.SerializeAsString()};
 }
 
 Error from_status(const grpc::Status& status) {
     assert(!status.ok());
+    Error error{cause_of_code(status.error_code()), status.error_message(), ""};
     google::rpc::Status details;
-    if (!status.error_details().empty() && details.ParseFromString(status.error_details())) {
-        for (const google::protobuf::Any& detail : details.details()) {
-            google::rpc::ErrorInfo info;
-            if (!detail.UnpackTo(&info) || info.domain() != kErrorDomain) continue;
-            const std::optional<Cause> cause = cause_by_name(info.reason());
-            if (!cause) continue;
-            const auto field = info.metadata().find("field");
-            return {*cause, status.error_message(), field == info.metadata().end() ? std::string() : field->second};
+    if (status.error_details().empty() || !details.ParseFromString(status.error_details())) return error;
+    for (const google::protobuf::Any& detail : details.details()) {
+        google::rpc::ErrorInfo info;
+        google::rpc::RetryInfo retry;
+        if (detail.UnpackTo(&info) && info.domain() == kErrorDomain) {
+            take_info(info, error);
+        } else if (detail.UnpackTo(&retry)) {
+            error.retry_after = static_cast<unsigned>(std::clamp<std::int64_t>(retry.retry_delay().seconds(), 0, kLongestRetry));
         }
     }
-    return {cause_of_code(status.error_code()), status.error_message(), ""};
+    return error;
 }
 
 }  // namespace vsplit::wire

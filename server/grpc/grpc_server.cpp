@@ -19,13 +19,13 @@ GrpcServer::GrpcServer(service::MeshingService& service, RpcObserver observer)
 GrpcServer::~GrpcServer() { shutdown(std::chrono::milliseconds(0)); }
 
 Expected<std::unique_ptr<GrpcServer>> GrpcServer::start(const std::string& address, service::MeshingService& service,
-                                                        RpcObserver observer) {
-    std::unique_ptr<GrpcServer> server(new GrpcServer(service, std::move(observer)));
-    if (Status listening = server->listen(address); !listening) return listening.error();
+                                                        GrpcExtras extras) {
+    std::unique_ptr<GrpcServer> server(new GrpcServer(service, extras.observer));
+    if (Status listening = server->listen(address, extras); !listening) return listening.error();
     return server;
 }
 
-Status GrpcServer::listen(const std::string& address) {
+Status GrpcServer::listen(const std::string& address, const GrpcExtras& extras) {
     grpc::EnableDefaultHealthCheckService(true);
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
     grpc::ServerBuilder builder;
@@ -34,18 +34,31 @@ Status GrpcServer::listen(const std::string& address) {
     builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
     builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port_);
     builder.RegisterService(&rpcs_);
+    for (grpc::Service* service : extras.services) builder.RegisterService(service);
+    if (extras.meter != nullptr) builder.experimental().SetInterceptorCreators(interceptors_of(*extras.meter));
     server_ = builder.BuildAndStart();
     if (server_ == nullptr || port_ == 0) return Error{Cause::kUnavailable, "cannot listen on " + address, "listen"};
     server_->GetHealthCheckService()->SetServingStatus(v1::Meshing::service_full_name(), true);
     return Done{};
 }
 
-void GrpcServer::shutdown(std::chrono::milliseconds grace) {
+std::shared_ptr<grpc::Channel> GrpcServer::channel() {
+    grpc::ChannelArguments arguments;
+    arguments.SetMaxReceiveMessageSize(-1);  // what the server itself makes needs no limit
+    return server_->InProcessChannel(arguments);
+}
+
+void GrpcServer::drain(std::chrono::milliseconds grace) {
     if (server_ == nullptr) return;
     server_->GetHealthCheckService()->SetServingStatus(false);
     // gRPC would wait for idle connections too, and many clients keep theirs until they call again.
     ledger_.close();
     ledger_.wait_until_idle(grace);
+}
+
+void GrpcServer::shutdown(std::chrono::milliseconds grace) {
+    if (server_ == nullptr) return;
+    drain(grace);
     server_->Shutdown(std::chrono::system_clock::now() + kFlushTime);
     server_->Wait();
     server_.reset();

@@ -41,7 +41,7 @@ std::string ListenAddress::text(std::string_view actual_port) const {
     return (is_ipv6 ? '[' + host + ']' : host) + ':' + std::string(actual_port);
 }
 
-Expected<ListenAddress> parse_listen_address(std::string_view text) {
+Expected<ListenAddress> parse_listen_address(std::string_view option, std::string_view text) {
     const std::size_t colon = text.rfind(':');
     std::string_view host = text.substr(0, colon);
     if (host.size() > 2 && host.front() == '[' && host.back() == ']') {
@@ -51,9 +51,9 @@ Expected<ListenAddress> parse_listen_address(std::string_view text) {
     }
     if (colon == std::string_view::npos || host.empty() || !is_port(text.substr(colon + 1))) {
         return Error{Cause::kInvalidOption,
-                     "--listen is \"" + std::string(text) +
+                     "--" + std::string(option) + " is \"" + std::string(text) +
                          "\"; accepted is HOST:PORT with a port of 0 to 65535, e.g. 127.0.0.1:50051 " + "or [::1]:50051",
-                     "listen"};
+                     std::string(option)};
     }
     return ListenAddress{std::string(host), std::string(text.substr(colon + 1))};
 }

@@ -16,8 +16,9 @@ struct ListenAddress {
     [[nodiscard]] std::string text(std::string_view actual_port) const;
 };
 
-/// \return INVALID_OPTION for anything but "HOST:PORT" or "[IPv6]:PORT".
-[[nodiscard]] Expected<ListenAddress> parse_listen_address(std::string_view text);
+/// `option` is where the text comes from, "listen" or "http". \return INVALID_OPTION for anything but "HOST:PORT" or
+/// "[IPv6]:PORT".
+[[nodiscard]] Expected<ListenAddress> parse_listen_address(std::string_view option, std::string_view text);
 
 /// Why the operating system would not let a server listen there, for a person; gRPC keeps it to itself.
 [[nodiscard]] std::string why_not_listening(const ListenAddress& address);

@@ -40,4 +40,10 @@ void log_rpc(const rpc::RpcRecord& record) {
     spdlog::info("rpc {} {} {:.1f} ms session {}: {}", record.method, cause_name(error.cause), ms, session, error.message);
 }
 
+void log_http(const rest::HttpRecord& record) {
+    const double ms = std::chrono::duration<double, std::milli>(record.elapsed).count();
+    spdlog::info("http {} {} {} {:.1f} ms in {} out {}", service::quoted(record.method), service::quoted(record.target),
+                 record.status, ms, record.bytes_in, record.bytes_out);
+}
+
 }  // namespace vsplit::ops

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iostream>
 #include <map>
+#include <string_view>
 
 namespace vsplit::ops {
 namespace {
@@ -19,6 +20,8 @@ const std::map<std::string, spdlog::level::level_enum> kLevels{{"debug", spdlog:
                                                                {"warning", spdlog::level::warn},
                                                                {"error", spdlog::level::err},
                                                                {"off", spdlog::level::off}};
+
+bool takes_free_port(std::string_view listen) { return listen.size() > 2 && listen.substr(listen.size() - 2) == ":0"; }
 
 void add_limits(CLI::App& app, service::Limits& limits) {
     app.add_option("--max-upload-bytes", limits.upload_bytes, "Bytes of an uploaded file")->check(CLI::PositiveNumber);
@@ -35,10 +38,16 @@ void add_limits(CLI::App& app, service::Limits& limits) {
 std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv) {
     ServerOptions options;
     std::int64_t ttl = std::chrono::duration_cast<std::chrono::seconds>(options.service.session_ttl).count();
-    CLI::App app("vsplitd: serves vsplit.v1.Meshing over gRPC, with health and reflection", "vsplitd");
+    CLI::App app("vsplitd: serves vsplit.v1.Meshing over gRPC, with health and reflection, and over HTTP with JSON", "vsplitd");
     app.option_defaults()->always_capture_default();
     app.set_version_flag("--version", "vsplitd " VSPLIT_VERSION);
-    app.add_option("--listen", options.listen, "HOST:PORT to serve at; port 0 takes a free one");
+    app.add_option("--listen", options.listen, "HOST:PORT to serve gRPC at; port 0 takes a free one");
+    const CLI::Option* const http =
+        app.add_option("--http", options.http, "HOST:PORT to serve REST at, or off; a free port where --listen takes one");
+    app.add_option("--cors-origin", options.rest.cors_origins,
+                   "Origin of web pages that may use REST, e.g. https://example.org, or *; several are allowed. Default: none")
+        ->option_text("ORIGIN ...");
+    app.add_flag("--print-openapi", options.print_openapi, "Print the OpenAPI document and end");
     app.add_option("--workers", options.service.workers, "Methods that run at a time; 0: one a core")
         ->check(CLI::Range(0U, kMostThreads));
     app.add_option("--threads", options.service.threads, "Threads of one method; 0: all cores")
@@ -54,6 +63,8 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
         return app.exit(error, std::cout, std::cerr) == 0 ? 0 : 1;
     }
     options.service.session_ttl = std::chrono::seconds(ttl);
+    // Who asks for a free port wants to be in nobody's way.
+    if (http->empty() && takes_free_port(options.listen)) options.http = "127.0.0.1:0";
     return options;
 }
 

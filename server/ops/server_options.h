@@ -5,13 +5,17 @@
 #include <string>
 #include <variant>
 
+#include "rest/rest_options.h"
 #include "service/limits.h"
 
 namespace vsplit::ops {
 
 /// What vsplitd was asked for on its command line.
 struct ServerOptions {
-    std::string listen = "127.0.0.1:50051";  ///< host:port; port 0 takes a free one
+    std::string listen = "127.0.0.1:50051";  ///< gRPC, host:port; port 0 takes a free one
+    std::string http = "127.0.0.1:8080";     ///< REST, as `listen`; "off" for none
+    rest::RestOptions rest;
+    bool print_openapi = false;
     service::ServiceOptions service;
     spdlog::level::level_enum log_level = spdlog::level::info;
 };

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "service/limits.h"
 #include "vsplit/base/expected.h"
 
 namespace vsplit::service {
@@ -16,7 +17,8 @@ template <class Make>
     try {
         return std::forward<Make>(make)();
     } catch (const std::bad_alloc&) {
-        return Error{Cause::kLimitExceeded, "the server has not enough memory for this request; ask for fewer faces", ""};
+        return Error{Cause::kLimitExceeded, "the server has not enough memory for this request; ask for fewer faces", "",
+                     kRetryAfter};
     } catch (const std::exception& thrown) {
         return Error{Cause::kInternal, std::string("unexpected failure: ") + thrown.what(), ""};
     }

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "service/limits.h"
+
 namespace vsplit::service {
 namespace {
 
@@ -27,7 +29,7 @@ Status JobQueue::push(std::shared_ptr<Job> job) {
                      std::to_string(waiting_.size()) +
                          " requests wait in this session already, the server's limit max_waiting; " +
                          "try again when one is done, or use another session",
-                     "session"};
+                     "session", kRetryAfter};
     }
     waiting_.push_back(std::move(job));
     return Done{};
@@ -61,6 +63,11 @@ void JobQueue::close(const Error& why) {
         if (active_ != nullptr) active_->stop(why);
     }
     abandon_all(abandoned, why);
+}
+
+std::size_t JobQueue::waiting() const {
+    const std::lock_guard lock(mutex_);
+    return waiting_.size();
 }
 
 bool JobQueue::idle() const {

@@ -49,6 +49,9 @@ public:
     /// Cancels all jobs and takes no more.
     void close(const Error& why);
 
+    /// Jobs that wait for another one of this queue.
+    [[nodiscard]] std::size_t waiting() const;
+
     /// No job runs or waits.
     [[nodiscard]] bool idle() const;
 

@@ -5,6 +5,9 @@
 
 namespace vsplit::service {
 
+/// When to try again after a limit on what the server does and holds at a time, seconds.
+inline constexpr unsigned kRetryAfter = 5;
+
 /// What a client may use up. Every limit is a flag of vsplitd; going beyond one is LIMIT_EXCEEDED and names it.
 struct Limits {
     std::uint64_t upload_bytes = std::uint64_t{4} << 30;  ///< of one uploaded file

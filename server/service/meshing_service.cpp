@@ -74,6 +74,11 @@ Expected<RunningMethod> MeshingService::start(std::string_view session, const Me
     return RunningMethod{*found, *std::move(job)};
 }
 
+ServiceLoad MeshingService::load() const {
+    const WorkerPool::Load methods = methods_.load();
+    return {sessions_.count(), methods.running, methods.waiting + sessions_.waiting_jobs()};
+}
+
 void MeshingService::cancel_all() { sessions_.clear({Cause::kUnavailable, "the server is shutting down", ""}); }
 
 void MeshingService::shutdown() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string_view>
@@ -17,6 +18,13 @@ namespace vsplit::service {
 struct RunningMethod {
     std::shared_ptr<Session> session;
     std::shared_ptr<Job> job;
+};
+
+/// How much there is to do.
+struct ServiceLoad {
+    std::size_t sessions = 0;
+    std::size_t methods_running = 0;
+    std::size_t methods_waiting = 0;  ///< for a worker, or for another method of their session
 };
 
 /// Everything a front door needs, whatever it speaks. Thread-safe. Functions marked heavy are for a pool, the others return at
@@ -57,6 +65,9 @@ public:
 
     /// As `errand`, for what waits for the disk.
     [[nodiscard]] bool disk_errand(WorkerPool::Task task) { return disk_.submit(std::move(task)).has_value(); }
+
+    /// O(sessions).
+    [[nodiscard]] ServiceLoad load() const;
 
     /// Forgets all sessions and cancels their methods, whose events are called.
     void cancel_all();

@@ -49,6 +49,9 @@ public:
     /// See JobQueue::cancel.
     void cancel(const std::shared_ptr<Job>& job, const Error& why) { queue_->cancel(job, why); }
 
+    /// Jobs that wait for another one of this session.
+    [[nodiscard]] std::size_t waiting_jobs() const { return queue_->waiting(); }
+
     /// Cancels all jobs; nothing can be put into the session any more.
     void close(const Error& why);
 

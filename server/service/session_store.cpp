@@ -36,12 +36,24 @@ Status SessionStore::require_room() {
     return require_room_locked();
 }
 
+std::size_t SessionStore::count() const {
+    const std::lock_guard lock(mutex_);
+    return sessions_.size();
+}
+
+std::size_t SessionStore::waiting_jobs() const {
+    const std::lock_guard lock(mutex_);
+    std::size_t waiting = 0;
+    for (const auto& [number, session] : sessions_) waiting += session->waiting_jobs();
+    return waiting;
+}
+
 Status SessionStore::require_room_locked() const {
     if (sessions_.size() < options_.limits.sessions) return Done{};
     return Error{Cause::kLimitExceeded,
                  "the server holds " + std::to_string(sessions_.size()) +
                      " sessions, its limit max_sessions; delete one, or wait until one expires",
-                 ""};
+                 "", kRetryAfter};
 }
 
 Expected<std::shared_ptr<Session>> SessionStore::create(std::shared_ptr<const SourceMesh> source) {

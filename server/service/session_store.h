@@ -44,6 +44,11 @@ public:
     /// \return INVALID_OPTION for a token that is none of ours. O(page + log sessions).
     [[nodiscard]] Expected<SessionPage> list(std::uint32_t page_size, std::string_view page_token) const;
 
+    [[nodiscard]] std::size_t count() const;
+
+    /// Jobs that wait for another one of their session. O(sessions).
+    [[nodiscard]] std::size_t waiting_jobs() const;
+
     /// Closes and forgets those nobody has used for their time. Returns how many. O(sessions).
     std::size_t remove_expired();
 

@@ -36,6 +36,11 @@ bool WorkerPool::withdraw(Ticket ticket) {
     return true;
 }
 
+WorkerPool::Load WorkerPool::load() const {
+    const std::lock_guard lock(mutex_);
+    return {running_, waiting_.size()};
+}
+
 void WorkerPool::shutdown() {
     {
         const std::lock_guard lock(mutex_);
@@ -53,11 +58,16 @@ std::optional<WorkerPool::Task> WorkerPool::next() {
     if (waiting_.empty()) return std::nullopt;
     Task task = std::move(waiting_.front().task);
     waiting_.pop_front();
+    ++running_;
     return task;
 }
 
 void WorkerPool::work() {
-    while (std::optional<Task> task = next()) (*task)();
+    while (std::optional<Task> task = next()) {
+        (*task)();
+        const std::lock_guard lock(mutex_);
+        --running_;
+    }
 }
 
 }  // namespace vsplit::service

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -31,6 +32,12 @@ public:
     /// Takes a task back that has not begun. False when it has. O(waiting tasks).
     bool withdraw(Ticket ticket);
 
+    struct Load {
+        std::size_t running = 0;  ///< tasks that a thread is at
+        std::size_t waiting = 0;  ///< tasks that no thread has begun
+    };
+    [[nodiscard]] Load load() const;
+
     /// Takes no more tasks, runs those that wait, and joins the threads. Not to be called from a task.
     void shutdown();
 
@@ -43,9 +50,10 @@ private:
     void work();
     [[nodiscard]] std::optional<Task> next();
 
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Waiting> waiting_;
+    std::size_t running_ = 0;
     Ticket last_ticket_ = 0;
     bool closed_ = false;
     std::vector<std::thread> threads_;

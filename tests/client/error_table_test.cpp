@@ -22,6 +22,16 @@ TEST(ErrorTableTest, EveryCauseSurvivesTheWayThroughAStatus) {
     }
 }
 
+TEST(ErrorTableTest, WhenToTryAgainTravelsAndChangesTheHttpStatus) {
+    const Error later{Cause::kLimitExceeded, "too many sessions", "", 7};
+    EXPECT_EQ(from_status(to_status(later)).retry_after, 7U);
+    EXPECT_EQ(http_status(later), 429);
+    const Error never{Cause::kLimitExceeded, "too many faces", "faces"};
+    EXPECT_EQ(from_status(to_status(never)).retry_after, 0U);
+    EXPECT_EQ(http_status(never), 413);
+    EXPECT_EQ(http_status({Cause::kBusy, "at work", "", 7}), 409);
+}
+
 TEST(ErrorTableTest, NamesAreInverted) {
     for (const ErrorRow& row : error_table()) EXPECT_EQ(cause_by_name(cause_name(row.cause)), row.cause);
     EXPECT_EQ(cause_by_name("NO_SUCH_CAUSE"), std::nullopt);

@@ -148,18 +148,18 @@ TEST(SolverFormatsTest, VtkFilesInTheirManyLayouts) {
     const TriangleMesh two{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}};
     const std::string points = "POINTS 4 float\n0 0 0 1 0 0 0 1 0 1 1 0\n";
     const std::string head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET ";
+    const std::string poly = head + "POLYDATA\n" + points;
+    const std::string grid = head + "UNSTRUCTURED_GRID\n" + points;
     for (const std::string& text :
-         {head + "POLYDATA\n" + points + "POLYGONS 2 8\n3 0 1 2\n3 1 3 2\n",
-          head + "POLYDATA\n" + points + "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2 3 1 3 2\nPOINT_DATA 4\nSCALARS a float\n",
-          head + "UNSTRUCTURED_GRID\n" + points + "CELLS 3 11\n2 0 1\n3 0 1 2\n3 1 3 2\nCELL_TYPES 3\n3 5 5\n",
-          head + "UNSTRUCTURED_GRID\n" + points +
-              "METADATA\nINFORMATION 0\n\nCELLS 3 6\nOFFSETS vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 1 3 "
-              "2\nCELL_TYPES 2\n5\n5\n"}) {
+         {poly + "POLYGONS 2 8\n3 0 1 2\n3 1 3 2\n",
+          poly + "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2 3 1 3 2\nPOINT_DATA 4\nSCALARS a float\n",
+          grid + "CELLS 3 11\n2 0 1\n3 0 1 2\n3 1 3 2\nCELL_TYPES 3\n3 5 5\n",
+          grid + "METADATA\nINFORMATION 0\n\nCELLS 3 6\nOFFSETS vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 1 3 "
+                 "2\nCELL_TYPES 2\n5\n5\n"}) {
         EXPECT_EQ(must_read(text), two) << text;
     }
-    EXPECT_EQ(must_read(head + "POLYDATA\n" + points +
-                        "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2\n3 1 3 2\nCELL_DATA 3\n"
-                        "FIELD f 2\nother 2 3 float\n1 2 3 4 5 6\nPhysicalIds 1 3 int\n9 4 5\n")
+    EXPECT_EQ(must_read(poly + "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2\n3 1 3 2\nCELL_DATA 3\n"
+                               "FIELD f 2\nother 2 3 float\n1 2 3 4 5 6\nPhysicalIds 1 3 int\n9 4 5\n")
                   .regions,
               (std::vector<std::uint32_t>{4, 5}));
     const std::string vtu =

@@ -75,7 +75,9 @@ protected:
         ASSERT_TRUE(line) << process_->errors();
         const std::string promised = "vsplitd listening on ";
         ASSERT_THAT(*line, StartsWith(promised + "127.0.0.1:"));
-        address_ = line->substr(promised.size());
+        const std::size_t http = line->find(" and http://127.0.0.1:");
+        ASSERT_NE(http, std::string::npos) << *line;
+        address_ = line->substr(promised.size(), http - promised.size());
         channel_ = grpc::CreateChannel(address_, grpc::InsecureChannelCredentials());
         stub_ = v1::Meshing::NewStub(channel_);
     }
@@ -163,7 +165,8 @@ TEST_F(ServerProcessTest, RefusesBadArguments) {
         {"--workers", "100000"},
         {"--max-faces", "99999999999"},
         {"--log-level", "loud"},
-        {"--http", "127.0.0.1:8080"},
+        {"--http", "nowhere"},
+        {"--listen", "127.0.0.1:0", "--http", "127.0.0.1:99999"},
         {"an argument without a purpose"},
     };
     for (const std::vector<std::string>& arguments : cases) {

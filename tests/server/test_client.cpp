@@ -34,8 +34,9 @@ public:
             case v1::ProgressiveEvent::kRepresentation:
                 received_.representation = event.representation();
                 return;
+            case v1::ProgressiveEvent::kError:
             case v1::ProgressiveEvent::EVENT_NOT_SET:
-                ADD_FAILURE() << "an empty event";
+                ADD_FAILURE() << "an event that gRPC does not have";
         }
     }
 

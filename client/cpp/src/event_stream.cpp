@@ -37,6 +37,7 @@ Status EventStream::take(v1::ProgressiveEvent event) {
             return Done{};
         case v1::ProgressiveEvent::kRegions:
             return handlers_.on_regions ? handlers_.on_regions(event.regions()) : Status(Done{});
+        case v1::ProgressiveEvent::kError:  // over HTTP only
         case v1::ProgressiveEvent::EVENT_NOT_SET:
             return Done{};  // a kind of a later version
     }

@@ -40,6 +40,8 @@ struct Error {
     Cause cause = Cause::kInternal;
     std::string message;
     std::string field;
+    /// Seconds after which the same request may well succeed; 0 where waiting does not help.
+    unsigned retry_after = 0;
 };
 
 }  // namespace vsplit

@@ -1,0 +1,77 @@
+#include "ops/metrics.h"
+
+#include <prometheus/text_serializer.h>
+
+#include <array>
+
+namespace vsplit::ops {
+namespace {
+
+using prometheus::Counter;
+using prometheus::Family;
+using prometheus::Gauge;
+using prometheus::Registry;
+
+// From the quickest answer to a method of minutes, seconds.
+const prometheus::Histogram::BucketBoundaries kSeconds{0.001, 0.005, 0.02, 0.1, 0.5, 2, 10, 60, 300};
+
+Family<Counter>& counters(Registry& registry, const char* name, const char* help) {
+    return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
+}
+
+Gauge& gauge(Registry& registry, const char* name, const char* help) {
+    return prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add({});
+}
+
+const char* code_name(grpc::StatusCode code) {
+    static constexpr std::array kNames{
+        "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
+        "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
+        "ABORTED",   "OUT_OF_RANGE",   "UNIMPLEMENTED",     "INTERNAL",           "UNAVAILABLE",
+        "DATA_LOSS", "UNAUTHENTICATED"};
+    const auto number = static_cast<std::size_t>(code);
+    return number < kNames.size() ? kNames.at(number) : "UNKNOWN";
+}
+
+}  // namespace
+
+Metrics::Metrics()
+    : rpcs_(counters(registry_, "vsplit_rpcs_total", "Rpcs that ended")),
+      seconds_(prometheus::BuildHistogram().Name("vsplit_rpc_seconds").Help("How long rpcs took").Register(registry_)),
+      running_(gauge(registry_, "vsplit_rpcs_running", "Rpcs that run now")),
+      bytes_in_(counters(registry_, "vsplit_message_bytes_total", "Bytes of messages").Add({{"direction", "in"}})),
+      bytes_out_(counters(registry_, "vsplit_message_bytes_total", "Bytes of messages").Add({{"direction", "out"}})),
+      requests_(counters(registry_, "vsplit_http_requests_total", "HTTP requests that ended; status 0 had no answer")),
+      http_in_(counters(registry_, "vsplit_http_bytes_total", "Bytes of HTTP bodies").Add({{"direction", "in"}})),
+      http_out_(counters(registry_, "vsplit_http_bytes_total", "Bytes of HTTP bodies").Add({{"direction", "out"}})),
+      sessions_(gauge(registry_, "vsplit_sessions", "Sessions that are held")),
+      methods_running_(gauge(registry_, "vsplit_jobs_running", "Methods that a worker is at")),
+      methods_waiting_(gauge(registry_, "vsplit_jobs_queued", "Methods that wait")) {}
+
+void Metrics::rpc_began(std::string_view /*method*/) { running_.Increment(); }
+
+void Metrics::rpc_ended(std::string_view method, grpc::StatusCode code, std::chrono::steady_clock::duration elapsed) {
+    const std::string name(method);
+    running_.Decrement();
+    rpcs_.Add({{"method", name}, {"code", code_name(code)}}).Increment();
+    seconds_.Add({{"method", name}}, kSeconds).Observe(std::chrono::duration<double>(elapsed).count());
+}
+
+void Metrics::message_in(std::size_t bytes) { bytes_in_.Increment(static_cast<double>(bytes)); }
+
+void Metrics::message_out(std::size_t bytes) { bytes_out_.Increment(static_cast<double>(bytes)); }
+
+void Metrics::http_ended(const rest::HttpRecord& record) {
+    requests_.Add({{"status", std::to_string(record.status)}}).Increment();
+    http_in_.Increment(static_cast<double>(record.bytes_in));
+    http_out_.Increment(static_cast<double>(record.bytes_out));
+}
+
+std::string Metrics::text(const service::ServiceLoad& load) {
+    sessions_.Set(static_cast<double>(load.sessions));
+    methods_running_.Set(static_cast<double>(load.methods_running));
+    methods_waiting_.Set(static_cast<double>(load.methods_waiting));
+    return prometheus::TextSerializer().Serialize(registry_.Collect());
+}
+
+}  // namespace vsplit::ops

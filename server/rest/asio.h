@@ -1,0 +1,52 @@
+#pragma once
+
+// Boost.Asio and Boost.Beast as this folder uses them. <utility> comes first: Boost 1.74's awaitable.hpp needs std::exchange and
+// does not include it.
+#include <utility>
+//
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/system/error_code.hpp>
+#include <optional>
+
+/// Coroutines here take and await nothing that g++ 12 gets wrong: no parameter by value that has a destructor (but a shared_ptr),
+/// no braced list and no choice by ?: && || within an awaited expression. It would destroy temporaries twice, or never made.
+namespace vsplit::rest {
+
+namespace net = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using ErrorCode = boost::system::error_code;
+
+template <class T>
+using Awaitable = net::awaitable<T>;
+
+/// For an operation's last argument: awaits it and puts what went wrong into `error` instead of throwing it.
+inline auto into(ErrorCode& error) { return net::redirect_error(net::use_awaitable, error); }
+
+/// Runs `work` on a thread of `pool`, so that no connection waits for it, and goes on where the caller was.
+template <class Work>
+Awaitable<decltype(std::declval<Work&>()())> off_thread(net::thread_pool& pool, Work work) {
+    using Result = decltype(work());
+    // The coroutine's arguments live in its frame, a lambda's captures would not. Asio wants a result that can be empty.
+    constexpr auto kRun = [](Work task) -> Awaitable<std::optional<Result>> { co_return task(); };
+    std::optional<Result> result = co_await net::co_spawn(pool, kRun(std::move(work)), net::use_awaitable);
+    co_return *std::move(result);
+}
+
+}  // namespace vsplit::rest

@@ -1,0 +1,157 @@
+#include "rest/gateway.h"
+
+#include <utility>
+
+#include "rest/accept.h"
+#include "rest/cors.h"
+#include "rest/message_shape.h"
+#include "rest/openapi.h"
+#include "wire/utf8.h"
+
+namespace vsplit::rest {
+namespace {
+
+constexpr unsigned kJsonThreads = 2;
+constexpr std::size_t kQuotedBytes = 200;
+constexpr std::size_t kLongPage = 1400;  // worth compressing
+constexpr std::string_view kPageMethods = "GET, HEAD, OPTIONS";
+
+Problem no_such_path(const std::string& path) {
+    return http_problem(404, Cause::kNotFound,
+                        "nothing is at " + wire::valid_utf8(path, kQuotedBytes) + "; /openapi.json describes what there is");
+}
+
+Problem wrong_method(const Exchange& exchange, std::string allowed) {
+    Problem problem = http_problem(
+        405, Cause::kUnsupported, "the path has no " + wire::valid_utf8(exchange.method(), kQuotedBytes) + "; it has " + allowed);
+    problem.allow = std::move(allowed);
+    return problem;
+}
+
+bool is_get(const Exchange& exchange) { return exchange.method() == "GET" || exchange.method() == "HEAD"; }
+
+const Route* find_route(const std::vector<const Route*>& routes, std::string_view method) {
+    for (const Route* route : routes) {
+        if (route->method == method || (method == "HEAD" && route->method == "GET")) return route;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+Gateway::Gateway(Backend backend, RestOptions options, std::unique_ptr<Schema> schema, Router router)
+    : backend_(std::move(backend)),
+      options_(std::move(options)),
+      schema_(std::move(schema)),
+      router_(std::move(router)),
+      budget_(options_.limits.all_json_bytes),
+      json_pool_(kJsonThreads),
+      rpcs_(backend_.channel) {
+    pages_ = operations_pages({backend_.ready, backend_.metrics, openapi_document(*schema_, router_, backend_.version)});
+    for (auto& [path, page] : backend_.pages) pages_[path] = page;
+}
+
+Gateway::~Gateway() { json_pool_.join(); }
+
+Expected<std::unique_ptr<Gateway>> Gateway::make(Backend backend, RestOptions options) {
+    Expected<std::unique_ptr<Schema>> schema = Schema::make(backend.descriptor_sets, backend.services);
+    if (!schema) return schema.error();
+    Expected<Router> router = Router::make(**schema);
+    if (!router) return router.error();
+    return std::unique_ptr<Gateway>(new Gateway(std::move(backend), std::move(options), *std::move(schema), *std::move(router)));
+}
+
+ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& request) const {
+    const auto field = [&request](http::field name) {
+        const auto text = request[name];
+        return std::string_view(text.data(), text.size());
+    };
+    ResponseManner manner;
+    manner.version = request.version();
+    manner.keep_alive = request.keep_alive();
+    manner.head_only = request.method() == http::verb::head;
+    manner.fields = check_origin(field(http::field::origin), field(http::field::host), options_.cors_origins).fields;
+    return manner;
+}
+
+Awaitable<void> Gateway::serve(Exchange& exchange) {
+    const std::string_view origin = exchange.header(http::field::origin);
+    if (check_origin(origin, exchange.header(http::field::host), options_.cors_origins).refused) {
+        co_return co_await exchange.fail(http_problem(403, Cause::kInvalidOption,
+                                                      "pages of " + wire::valid_utf8(origin, kQuotedBytes) +
+                                                          " may not use this server; vsplitd --cors-origin allows an origin",
+                                                      "Origin"));
+    }
+    if (exchange.target() == "*" && exchange.method() == "OPTIONS") {
+        co_return co_await serve_options(exchange, "DELETE, GET, HEAD, OPTIONS, POST, PUT");
+    }
+    const Expected<Target> target = parse_target(exchange.target());
+    if (!target) co_return co_await exchange.fail(problem_of(target.error()));
+    co_await serve_target(exchange, *target);
+}
+
+Awaitable<void> Gateway::serve_target(Exchange& exchange, const Target& target) {
+    const auto page = pages_.find(target.path);
+    const bool ready_page = target.path == kReadyPath;
+    if (page != pages_.end() || ready_page) {
+        if (exchange.method() == "OPTIONS") co_return co_await serve_options(exchange, std::string(kPageMethods));
+        if (!is_get(exchange)) co_return co_await exchange.fail(wrong_method(exchange, std::string(kPageMethods)));
+        if (ready_page) co_return co_await serve_ready(exchange);
+        co_return co_await serve_page(exchange, page->second);
+    }
+    const std::vector<const Route*> routes = router_.match(target.path);
+    if (routes.empty()) co_return co_await exchange.fail(no_such_path(target.path));
+    if (exchange.method() == "OPTIONS") co_return co_await serve_options(exchange, allowed_methods(routes));
+    const Route* const route = find_route(routes, exchange.method());
+    if (route == nullptr) co_return co_await exchange.fail(wrong_method(exchange, allowed_methods(routes)));
+    co_await serve_rpc(exchange, *route, target);
+}
+
+Awaitable<void> Gateway::serve_options(Exchange& exchange, const std::string& allowed) {
+    ResponseHead head;
+    head.status = 204;
+    head.fields.emplace_back("Allow", allowed);
+    if (!exchange.header(http::field::access_control_request_method).empty()) {
+        for (auto& field : preflight_fields(allowed)) head.fields.push_back(std::move(field));
+    }
+    if (!exchange.body().at_end()) exchange.response().close_after();
+    co_await exchange.response().respond(head, {});
+}
+
+Awaitable<void> Gateway::serve_page(Exchange& exchange, const Page& page) {
+    const std::string text = page.text();
+    ResponseHead head;
+    head.content_type = page.content_type;
+    head.fields = page.fields;
+    head.fields.emplace_back("Vary", "Accept-Encoding");
+    head.gzip = text.size() > kLongPage && accepts_encoding(exchange.header(http::field::accept_encoding), "gzip");
+    if (!exchange.body().at_end()) exchange.response().close_after();
+    co_await exchange.response().respond(head, text);
+}
+
+Awaitable<void> Gateway::serve_ready(Exchange& exchange) {
+    if (backend_.ready && !backend_.ready()) {
+        co_return co_await exchange.fail(problem_of(Error{Cause::kUnavailable, "the server is shutting down", ""}));
+    }
+    co_await serve_page(exchange, pages_.find("/healthz")->second);
+}
+
+Awaitable<void> Gateway::serve_rpc(Exchange& exchange, const Route& route, const Target& target) {
+    const Tools tools{rpcs_, {*schema_, json_pool_, budget_}};
+    if (creates_with_mesh(exchange, route)) co_return co_await serve_create_with_mesh(exchange, route, target, tools);
+    switch (shape_of(*route.rpc)) {
+        case RpcShape::kUnary:
+            co_return co_await serve_unary(exchange, route, target, tools);
+        case RpcShape::kEvents:
+            co_return co_await serve_events(exchange, route, target, tools);
+        case RpcShape::kFile:
+            co_return co_await serve_file(exchange, route, target, tools);
+        case RpcShape::kUpload:
+            co_return co_await serve_upload(exchange, route, target, tools);
+        case RpcShape::kNone:
+            break;
+    }
+    co_await exchange.fail(problem_of(Error{Cause::kUnsupported, route.rpc->full_name() + " is for gRPC only", ""}));
+}
+
+}  // namespace vsplit::rest

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rest/exchange.h"
+#include "rest/handlers.h"
+#include "rest/pages.h"
+#include "rest/rest_options.h"
+#include "rest/router.h"
+#include "rest/schema.h"
+
+namespace vsplit::rest {
+
+/// What REST stands in front of.
+struct Backend {
+    std::shared_ptr<grpc::Channel> channel;           ///< to the server with the rpcs
+    std::vector<std::string_view> descriptor_sets{};  ///< of its services, with source info; they must live as long
+    std::vector<std::string> services{};              ///< full names
+    std::function<bool()> ready{};                    ///< whether new work is taken; empty: always
+    std::function<std::string()> metrics{};           ///< text for /metrics; empty: no such page
+    Pages pages{};                                    ///< more of them, or others in their place
+    std::string version{};                            ///< of the server, for the OpenAPI document
+};
+
+/// Decides what answers a request. Thread-safe but for its set-up.
+class Gateway {
+public:
+    /// \return MALFORMED_INPUT, NOT_FOUND for descriptors that do not fit.
+    [[nodiscard]] static Expected<std::unique_ptr<Gateway>> make(Backend backend, RestOptions options);
+    ~Gateway();
+
+    [[nodiscard]] const RestLimits& limits() const { return options_.limits; }
+
+    /// How the answer to this request is written.
+    [[nodiscard]] ResponseManner manner_of(const http::request<http::buffer_body>& request) const;
+
+    /// Answers it, whatever it is. Throws bad_alloc only.
+    Awaitable<void> serve(Exchange& exchange);
+
+private:
+    Gateway(Backend backend, RestOptions options, std::unique_ptr<Schema> schema, Router router);
+
+    Awaitable<void> serve_target(Exchange& exchange, const Target& target);
+    Awaitable<void> serve_options(Exchange& exchange, const std::string& allowed);
+    Awaitable<void> serve_page(Exchange& exchange, const Page& page);
+    Awaitable<void> serve_ready(Exchange& exchange);
+    Awaitable<void> serve_rpc(Exchange& exchange, const Route& route, const Target& target);
+
+    Backend backend_;
+    const RestOptions options_;
+    const std::unique_ptr<Schema> schema_;
+    const Router router_;
+    Pages pages_;
+    JsonBudget budget_;
+    net::thread_pool json_pool_;
+    RpcClient rpcs_;
+};
+
+}  // namespace vsplit::rest

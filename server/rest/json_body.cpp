@@ -1,0 +1,147 @@
+#include "rest/json_body.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "rest/accept.h"
+#include "rest/request_fields.h"
+#include "service/limits.h"
+#include "wire/json.h"
+#include "wire/utf8.h"
+
+namespace vsplit::rest {
+namespace pb = google::protobuf;
+
+namespace {
+
+// What takes a thread that speaks to clients no more than a moment.
+constexpr std::size_t kShort = std::size_t{64} * 1024;
+
+// Worth compressing.
+constexpr std::size_t kLong = 1400;
+
+Problem too_large(const RestLimits& limits) {
+    return http_problem(413, Cause::kLimitExceeded,
+                        "the JSON body is larger than " + std::to_string(limits.json_bytes) +
+                            " bytes, the server's limit; a mesh is sent as it is, not in JSON");
+}
+
+Problem too_many_now() {
+    Error error{Cause::kLimitExceeded, "the server holds as many JSON bodies as it has memory for", "", service::kRetryAfter};
+    return problem_of(error);
+}
+
+using TextOrProblem = std::variant<std::string, Problem>;
+
+Awaitable<TextOrProblem> read_text(Exchange& exchange, JsonShare& share) {
+    const RestLimits& limits = exchange.limits();
+    const std::optional<std::uint64_t> declared = exchange.body().declared_size();
+    if (declared.value_or(0) > limits.json_bytes) co_return too_large(limits);
+    std::string text;
+    for (;;) {
+        // Taken as it comes, not as it is announced: a client that only claims much holds nothing.
+        constexpr std::size_t kPart = std::size_t{64} * 1024;
+        const std::size_t room = std::min<std::uint64_t>(kPart, declared.value_or(limits.json_bytes + 1) - text.size());
+        if (!share.grow(room)) co_return too_many_now();
+        const std::size_t before = text.size();
+        text.resize(before + room);
+        const Expected<std::size_t> got = co_await exchange.body().read_some({text.data() + before, room});
+        if (!got) co_return problem_of(got.error());
+        text.resize(before + *got);
+        if (text.size() > limits.json_bytes) co_return too_large(limits);
+        if (*got == 0 || exchange.body().at_end()) co_return text;
+    }
+}
+
+// The message that the body is: the request or one of its fields.
+pb::Message* body_message(const Route& route, pb::Message& request) {
+    if (route.body == "*") return &request;
+    const pb::FieldDescriptor* const field = request.GetDescriptor()->FindFieldByName(route.body);
+    if (field->cpp_type() != pb::FieldDescriptor::CPPTYPE_MESSAGE || field->is_repeated()) return nullptr;
+    return request.GetReflection()->MutableMessage(&request, field);
+}
+
+Status take_body(const Route& route, const std::string& text, pb::Message& request) {
+    if (pb::Message* const message = body_message(route, request)) return wire::from_json(text, *message);
+    return wire::from_json('{' + std::string("\"") + route.body + "\":" + text + '}', request);
+}
+
+bool is_json(std::string_view type) { return same_token(media_type(type), kJsonType); }
+
+}  // namespace
+
+Status bind_target(const Route& route, const Target& target, pb::Message& request) {
+    for (const QueryParameter& parameter : target.query) {
+        if (Status set = set_field(request, parameter.name, parameter.value); !set) return set;
+    }
+    const auto variables = route.path.match(target.path);
+    for (const PathVariable& variable : *variables) {
+        if (Status set = set_field(request, variable.field, variable.value); !set) return set;
+    }
+    return Done{};
+}
+
+Awaitable<std::variant<std::unique_ptr<pb::Message>, Problem>> read_request(Exchange& exchange, const Route& route,
+                                                                            const Target& target, JsonWorks works) {
+    std::unique_ptr<pb::Message> request = works.schema.new_message(route.rpc->input_type());
+    JsonShare share(works.budget);
+    TextOrProblem read = co_await read_text(exchange, share);
+    if (auto* problem = std::get_if<Problem>(&read)) co_return std::move(*problem);
+    const std::string& text = std::get<std::string>(read);
+    if (!text.empty()) {
+        if (route.body.empty()) {
+            co_return http_problem(400, Cause::kMalformedInput, "this request takes no body; its options go into the query");
+        }
+        const std::string_view type = exchange.header(http::field::content_type);
+        if (!type.empty() && !is_json(type)) co_return wrong_body_type(exchange, kJsonType);
+        const auto parse = [&] { return take_body(route, text, *request); };
+        Status parsed = Done{};
+        if (text.size() < kShort) {
+            parsed = parse();
+        } else {
+            parsed = co_await off_thread(works.pool, parse);
+        }
+        if (!parsed) co_return problem_of(parsed.error());
+    }
+    const Status bound = bind_target(route, target, *request);
+    if (!bound) co_return problem_of(bound.error());
+    co_return std::move(request);
+}
+
+Awaitable<std::string> write_json(const pb::Message& message, JsonWorks works) {
+    const auto write = [&message] { return wire::to_json(message) + '\n'; };
+    if (message.ByteSizeLong() < kShort) co_return write();
+    co_return co_await off_thread(works.pool, write);
+}
+
+Awaitable<void> respond_json(Exchange& exchange, const pb::Message& message, JsonWorks works) {
+    const std::string text = co_await write_json(message, works);
+    ResponseHead head;
+    head.content_type = kJsonType;
+    head.fields.emplace_back("Cache-Control", "no-store");
+    head.fields.emplace_back("Vary", "Accept, Accept-Encoding");
+    head.gzip = text.size() > kLong && accepts_encoding(exchange.header(http::field::accept_encoding), "gzip");
+    co_await exchange.response().respond(head, text);
+}
+
+bool accepts_json(const Exchange& exchange) {
+    constexpr std::array kOffers{kJsonType};
+    return choose_media_type(exchange.header(http::field::accept), kOffers).has_value();
+}
+
+Problem not_acceptable(std::string_view offered) {
+    return http_problem(406, Cause::kUnsupported, "nothing that Accept names is offered here; offered is " + std::string(offered),
+                        "Accept");
+}
+
+Problem wrong_body_type(const Exchange& exchange, std::string_view accepted) {
+    constexpr std::size_t kQuoted = 100;
+    const std::string_view type = media_type(exchange.header(http::field::content_type));
+    return http_problem(
+        415, Cause::kUnsupported,
+        "the body's Content-Type is \"" + wire::valid_utf8(type, kQuoted) + "\"; accepted is " + std::string(accepted),
+        "Content-Type");
+}
+
+}  // namespace vsplit::rest

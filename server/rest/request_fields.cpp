@@ -1,0 +1,168 @@
+#include "rest/request_fields.h"
+
+#include <google/protobuf/descriptor.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <system_error>
+
+#include "wire/json.h"
+#include "wire/utf8.h"
+
+namespace vsplit::rest {
+namespace pb = google::protobuf;
+using Field = pb::FieldDescriptor;
+
+namespace {
+
+constexpr std::size_t kQuotedBytes = 100;
+
+std::string quoted(std::string_view text) { return '"' + wire::valid_utf8(text, kQuotedBytes) + '"'; }
+
+Error bad_value(std::string_view name, std::string_view text, const std::string& accepted) {
+    const std::string field = wire::valid_utf8(name, kQuotedBytes);
+    return {Cause::kInvalidOption, field + " is " + quoted(text) + "; accepted is " + accepted, field};
+}
+
+Error unknown_field(std::string_view name, const pb::Descriptor& type) {
+    std::string known;
+    for (int i = 0; i < type.field_count(); ++i) known += (i == 0 ? "" : ", ") + type.field(i)->json_name();
+    const std::string field = wire::valid_utf8(name, kQuotedBytes);
+    return {Cause::kInvalidOption,
+            type.name() + " has no field " + quoted(name) + (known.empty() ? "" : "; accepted are " + known), field};
+}
+
+const Field* find_field(const pb::Descriptor& type, std::string_view name) {
+    for (int i = 0; i < type.field_count(); ++i) {
+        if (type.field(i)->name() == name || type.field(i)->json_name() == name) return type.field(i);
+    }
+    return nullptr;
+}
+
+template <class Number>
+bool parse(std::string_view text, Number& value) {
+    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return failed == std::errc() && end == text.data() + text.size();
+}
+
+// Sets or adds, as the field is.
+class FieldWriter {
+public:
+    FieldWriter(pb::Message& message, const Field& field, std::string_view name, std::string_view text)
+        : message_(message), field_(field), name_(name), text_(text) {}
+
+    [[nodiscard]] Status write() const {
+        using Reflection = pb::Reflection;
+        switch (field_.cpp_type()) {
+            case Field::CPPTYPE_INT32:
+                return number<std::int32_t>(&Reflection::SetInt32, &Reflection::AddInt32, "a whole number of 32 bits");
+            case Field::CPPTYPE_INT64:
+                return number<std::int64_t>(&Reflection::SetInt64, &Reflection::AddInt64, "a whole number of 64 bits");
+            case Field::CPPTYPE_UINT32:
+                return number<std::uint32_t>(&Reflection::SetUInt32, &Reflection::AddUInt32,
+                                             "a whole number from 0 to 4294967295");
+            case Field::CPPTYPE_UINT64:
+                return number<std::uint64_t>(&Reflection::SetUInt64, &Reflection::AddUInt64, "a whole number of 0 or more");
+            case Field::CPPTYPE_DOUBLE:
+                return number<double>(&Reflection::SetDouble, &Reflection::AddDouble, "a number");
+            case Field::CPPTYPE_FLOAT:
+                return number<float>(&Reflection::SetFloat, &Reflection::AddFloat, "a number");
+            case Field::CPPTYPE_BOOL:
+                return boolean();
+            case Field::CPPTYPE_ENUM:
+                return enumerator();
+            case Field::CPPTYPE_STRING:
+                return string();
+            case Field::CPPTYPE_MESSAGE:
+                break;
+        }
+        return well_known();
+    }
+
+private:
+    template <class Value, class Set, class Add>
+    Status put(Set set, Add add, Value value) const {
+        const pb::Reflection& reflection = *message_.GetReflection();
+        if (field_.is_repeated()) {
+            (reflection.*add)(&message_, &field_, value);
+        } else {
+            (reflection.*set)(&message_, &field_, value);
+        }
+        return Done{};
+    }
+
+    template <class Number, class Set, class Add>
+    Status number(Set set, Add add, const char* accepted) const {
+        Number value{};
+        if (!parse(text_, value)) return bad_value(name_, text_, accepted);
+        return put(set, add, value);
+    }
+
+    Status boolean() const {
+        if (text_ != "true" && text_ != "false") return bad_value(name_, text_, "true or false");
+        return put(&pb::Reflection::SetBool, &pb::Reflection::AddBool, text_ == "true");
+    }
+
+    Status enumerator() const {
+        std::string upper(text_);
+        std::transform(upper.begin(), upper.end(), upper.begin(), [](char c) {
+            if (c == '-') return '_';
+            return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+        });
+        const pb::EnumDescriptor& type = *field_.enum_type();
+        const pb::EnumValueDescriptor* value = type.FindValueByName(upper);
+        int number = 0;
+        if (value == nullptr && parse(text_, number)) value = type.FindValueByNumber(number);
+        if (value != nullptr) return put(&pb::Reflection::SetEnumValue, &pb::Reflection::AddEnumValue, value->number());
+        std::string names;
+        for (int i = 0; i < type.value_count(); ++i) names += (i == 0 ? "" : ", ") + type.value(i)->name();
+        return bad_value(name_, text_, "one of " + names);
+    }
+
+    Status string() const {
+        if (field_.type() == Field::TYPE_BYTES) {
+            return Error{Cause::kInvalidOption, std::string(name_) + " is bytes, which belong into the body", std::string(name_)};
+        }
+        // The contract's strings are UTF-8; what is not would fail far from here with other words.
+        return put(&pb::Reflection::SetString, &pb::Reflection::AddString, wire::valid_utf8(text_, text_.size() + 3));
+    }
+
+    Status well_known() const {
+        const pb::Reflection& reflection = *message_.GetReflection();
+        pb::Message& value =
+            field_.is_repeated() ? *reflection.AddMessage(&message_, &field_) : *reflection.MutableMessage(&message_, &field_);
+        const bool quotable = text_.find_first_of("\"\\") == std::string_view::npos;
+        if (quotable && wire::from_json('"' + std::string(text_) + '"', value)) return Done{};
+        return bad_value(
+            name_, text_,
+            "what JSON writes for a " + field_.message_type()->full_name() + "; the fields of a message are named with a dot");
+    }
+
+    pb::Message& message_;
+    const Field& field_;
+    const std::string_view name_;
+    const std::string_view text_;
+};
+
+}  // namespace
+
+Status set_field(pb::Message& message, std::string_view name, std::string_view text) {
+    pb::Message* owner = &message;
+    std::string_view rest = name;
+    for (;;) {
+        const std::size_t dot = rest.find('.');
+        const Field* const field = find_field(*owner->GetDescriptor(), rest.substr(0, dot));
+        if (field == nullptr) return unknown_field(name, *owner->GetDescriptor());
+        if (dot == std::string_view::npos) return FieldWriter(*owner, *field, name, text).write();
+        if (field->cpp_type() != Field::CPPTYPE_MESSAGE || field->is_repeated()) {
+            return unknown_field(name, *owner->GetDescriptor());
+        }
+        owner = owner->GetReflection()->MutableMessage(owner, field);
+        rest.remove_prefix(dot + 1);
+    }
+}
+
+}  // namespace vsplit::rest

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace vsplit::rest {
+
+/// What one client may use up, and what all together may.
+struct RestLimits {
+    std::size_t connections = 2000;                           ///< at a time; more are answered 503
+    std::size_t requests = 10'000;                            ///< on one connection, then it is closed
+    std::uint32_t header_bytes = 16 * 1024;                   ///< first line and header of a request
+    std::size_t ahead_bytes = std::size_t{64} * 1024;         ///< of requests that a client sends before it has its answer
+    std::uint64_t json_bytes = std::uint64_t{32} << 20;       ///< of one JSON body
+    std::uint64_t all_json_bytes = std::uint64_t{256} << 20;  ///< of all JSON bodies at a time
+    std::chrono::milliseconds header_time{10'000};            ///< for a whole header, from its first byte
+    std::chrono::milliseconds idle_time{60'000};              ///< between two requests
+    std::chrono::milliseconds stall_time{30'000};             ///< without a byte of a body, or with none taken of an answer
+    std::uint64_t slowest_body = 1024;                        ///< bytes a second, after stall_time
+};
+
+struct RestOptions {
+    RestLimits limits;
+    std::vector<std::string> cors_origins;  ///< pages of these origins may use the server; "*" for all. Default: none but its own
+    unsigned threads = 2;                   ///< that speak to clients; none of them computes
+};
+
+}  // namespace vsplit::rest

@@ -1,0 +1,56 @@
+#include "rest/request_fields.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vsplit/v1/meshing.pb.h"
+
+namespace vsplit::rest {
+namespace {
+
+TEST(RequestFieldsTest, SetsFieldsByBothNames) {
+    v1::ImproveRequest request;
+    EXPECT_TRUE(set_field(request, "session", "abc"));
+    EXPECT_TRUE(set_field(request, "options.maxDeviation", "0.5"));
+    EXPECT_TRUE(set_field(request, "options.feature_angle", "30"));
+    EXPECT_TRUE(set_field(request, "options.mode", "strict"));
+    EXPECT_TRUE(set_field(request, "options.freezeBoundary", "true"));
+    EXPECT_TRUE(set_field(request, "options.regions", "1"));
+    EXPECT_TRUE(set_field(request, "options.regions", "2"));
+    EXPECT_EQ(request.session(), "abc");
+    EXPECT_EQ(request.options().max_deviation(), 0.5);
+    EXPECT_EQ(request.options().feature_angle(), 30);
+    EXPECT_EQ(request.options().mode(), v1::STRICT);
+    EXPECT_TRUE(request.options().freeze_boundary());
+    EXPECT_EQ(request.options().regions_size(), 2);
+}
+
+TEST(RequestFieldsTest, EnumsAndWellKnownTypes) {
+    v1::DownloadMeshRequest download;
+    EXPECT_TRUE(set_field(download, "format", "stl-ascii"));
+    EXPECT_EQ(download.format(), v1::STL_ASCII);
+    EXPECT_TRUE(set_field(download, "format", "3"));
+    EXPECT_EQ(download.format(), v1::OBJ);
+    v1::Representation representation;
+    EXPECT_TRUE(set_field(representation, "elapsed", "1.5s"));
+    EXPECT_EQ(representation.elapsed().seconds(), 1);
+    EXPECT_FALSE(set_field(representation, "elapsed", "\"}"));
+}
+
+TEST(RequestFieldsTest, SaysWhatIsWrongAndWhatWouldDo) {
+    v1::GetQualityRequest request;
+    const Status unknown = set_field(request, "wrost", "1");
+    ASSERT_FALSE(unknown);
+    EXPECT_EQ(unknown.error().cause, Cause::kInvalidOption);
+    EXPECT_EQ(unknown.error().field, "wrost");
+    EXPECT_THAT(unknown.error().message, ::testing::HasSubstr("worst"));
+    for (const char* text : {"", "-1", "1.5", "1x", "4294967296", " 1"}) EXPECT_FALSE(set_field(request, "worst", text)) << text;
+    EXPECT_FALSE(set_field(request, "worst.more", "1"));
+    EXPECT_FALSE(set_field(request, "", "1"));
+    v1::CreateSessionRequest create;
+    EXPECT_FALSE(set_field(create, "mesh", "abc")) << "bytes";
+    EXPECT_THAT(set_field(create, "format", "tiff").error().message, ::testing::HasSubstr("STL_ASCII"));
+}
+
+}  // namespace
+}  // namespace vsplit::rest
