@@ -28,7 +28,7 @@ def read_ply(data):
 class ClientTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.server = subprocess.Popen([sys.argv[1], "--listen", "127.0.0.1:0"], stdout=subprocess.PIPE, text=True)
+        cls.server = subprocess.Popen([sys.argv[1], "--listen", "127.0.0.1:0", "--http", "off"], stdout=subprocess.PIPE, text=True)
         line = cls.server.stdout.readline()
         cls.client = vsplit.Client("127.0.0.1:" + line.rsplit(":", 1)[1].split()[0].strip().rstrip("."))
         cls.session = cls.client.upload(DATA / "bracket.stl")
