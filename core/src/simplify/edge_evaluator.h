@@ -42,18 +42,27 @@ public:
           centre_(input.centre),
           tolerance_square_(input.tolerance * input.tolerance) {}
 
-    /// What collapsing h's edge would give. O(valence). Afterwards fan() is the fan of the collapse, shaped for the position
+    /// What collapsing h's edge would give. O(valence^2). Afterwards fan() is the fan of the collapse, shaped for the position
     /// returned, when valid.
     [[nodiscard]] Evaluation evaluate(HalfEdge h) {
+        const Evaluation ranked = rank(h);
+        return ranked.verdict == Evaluation::Verdict::kValid && mesh_.pinches(h) ? Evaluation{} : ranked;
+    }
+
+    /// The same but that an edge may be called valid whose collapse would pinch the surface. Such edges are few, and which they are
+    /// is told soon enough when one is the next to go. O(valence).
+    [[nodiscard]] Evaluation rank(HalfEdge h) {
         const std::uint32_t i = mesh_.origin(h);
         const std::uint32_t j = mesh_.target(h);
         if (!state_.border.may_join(i, j)) return {};
         ghost_ = std::min(state_.border.ghost_beside(i), state_.border.ghost_beside(j));  // the same where there are two
         const std::uint32_t valence = mesh_.valence(i) + mesh_.valence(j) - 4;
         if (valence < 3 || valence > kValenceCeiling || !policy_.admits_valence(valence - (ghost_ == kNone ? 0 : 1))) return {};
-        if (!gather(h) || !policy_.eligible(before_)) return {};
+        gather(h, valence);
+        if (!policy_.eligible(before_)) return {};
         ends_ = {i, j};
-        const Quadric quadric = state_.quadrics[i] + state_.quadrics[j];
+        Quadric quadric = state_.quadrics[i];
+        quadric += state_.quadrics[j];
         error_limit_ = policy_.error_limit(quadric, tolerance_square_);
         if constexpr (Policy::kExtended) {
             if (!keeps_creases(h)) return {};
@@ -65,7 +74,7 @@ public:
             if (is_corner(creases_[0])) return attempt(quadric, mesh_.position(i) - centre_) ? valid_ : Evaluation{};
             if (is_corner(creases_[1])) return attempt(quadric, mesh_.position(j) - centre_) ? valid_ : Evaluation{};
         }
-        const Vec3 centroid = fan_.centroid() - centre_;
+        const Vec3 centroid = ring_sum_ / static_cast<double>(fan_.ring_size()) - centre_;
         if (attempt(quadric, centroid)) return valid_;
         if (attempt(quadric, project_to_minimum(quadric, centroid))) return valid_;
         const Vec3 middle = (mesh_.position(i) + mesh_.position(j)) * 0.5 - centre_;
@@ -124,22 +133,22 @@ private:
         return true;
     }
 
-    /// Walks the ring of the edge into the fan and sums up the faces before. False when the link condition fails: the ends share
-    /// a neighbour besides the two across the edge, so that the collapse would pinch the surface.
-    [[nodiscard]] bool gather(HalfEdge h) {
+    /// Walks the ring of the edge, of `all` vertices, into the fan and sums up the faces before.
+    void gather(HalfEdge h, std::uint32_t all) {
         const HalfEdge g = mesh_.twin(h);
-        if (mesh_.valence(mesh_.origin(h)) == 3 && mesh_.valence(mesh_.origin(g)) == 3) return false;  // a tetrahedron
         Before before{0, 0, std::numeric_limits<double>::infinity(), 0};
         count(state_.faces[face_of(h)], before);
         count(state_.faces[face_of(g)], before);
-        const std::size_t at_i = gather_half(mesh_.turn(h), g, 0, before, creases_[0]);
-        const std::size_t all = gather_half(mesh_.turn(g), h, at_i, before, creases_[1]);
+        ring_sum_ = Vec3::Zero();
+        const std::uint32_t at_i = mesh_.valence(mesh_.origin(h)) - 2;
+        creases_[0] = gather_half(mesh_.turn(h), 0, at_i, before);
+        creases_[1] = gather_half(mesh_.turn(g), at_i, all, before);
         before_ = before;
-        // Each half begins with a vertex across the edge, which both ends share; the others must differ.
-        if (share_vertex(1, at_i, at_i + 1, all)) return false;
+        if constexpr (Policy::kExtended) {
+            for (int& creases : creases_) creases += int{mesh_.is_crease(h)};
+        }
         ghost_ == kNone ? fan_.close(all) : open_fan(h, all);
         if (policy_.shaped()) before_.excess = excess_before(h);
-        return true;
     }
 
     /// Takes the ghost and its faces out of what gather() found.
@@ -168,23 +177,25 @@ private:
         return all;
     }
 
-    /// Puts the faces counter-clockwise from that of `first` to the one before the face of `edge` into the fan, from place t on.
-    /// The next free place. Counts in locals: members would go through memory at every step.
-    std::size_t gather_half(HalfEdge first, HalfEdge edge, std::size_t t, Before& before, int& creases) {
-        const std::uint32_t last_face = face_of(edge);
+    /// Puts faces counter-clockwise from that of `first` into the fan, from place t to `end`. How many of their spokes and the one
+    /// behind them are creases. Counts in locals: members would go through memory at every step.
+    [[nodiscard]] int gather_half(HalfEdge first, std::size_t t, std::size_t end, Before& before) {
         Before sums = before;
-        int marks = 0;
+        Vec3 ring_sum = ring_sum_;
+        int creases = 0;
         HalfEdge corner = first;
-        for (; face_of(corner) != last_face; corner = mesh_.turn(corner), ++t) {
-            if constexpr (Policy::kExtended) marks += int{mesh_.is_crease(corner)};
+        for (; t < end; corner = mesh_.turn(corner), ++t) {
+            if constexpr (Policy::kExtended) creases += int{mesh_.is_crease(corner)};
             const std::uint32_t v = mesh_.target(corner);
             const FaceState& face = state_.faces[face_of(corner)];
             fan_.put(t, v, mesh_.position(v), face_of(corner), face.normal);
+            ring_sum += mesh_.position(v);
             count(face, sums);
         }
-        if constexpr (Policy::kExtended) creases = marks + int{mesh_.is_crease(corner)} + int{mesh_.is_crease(edge)};
+        if constexpr (Policy::kExtended) creases += int{mesh_.is_crease(corner)};
         before = sums;
-        return t;
+        ring_sum_ = ring_sum;
+        return creases;
     }
 
     [[nodiscard]] bool within_tolerance(std::uint32_t i, std::uint32_t j) const {
@@ -237,21 +248,13 @@ private:
         sums.weight_sum += policy_.face_weight(face.size);
     }
 
-    /// Whether a vertex of [first, last) of the fan's ring stands in [other_first, other_last) too.
-    [[nodiscard]] bool share_vertex(std::size_t first, std::size_t last, std::size_t other_first, std::size_t other_last) const {
-        bool shared = false;
-        for (std::size_t l = first; l < last; ++l) {
-            for (std::size_t r = other_first; r < other_last; ++r) shared |= fan_.vertex(l) == fan_.vertex(r);
-        }
-        return shared;
-    }
-
     const HalfEdgeMesh& mesh_;
     const LocalState& state_;
     const Policy& policy_;
     const Vec3 centre_;
     const double tolerance_square_;
     Fan fan_;
+    Vec3 ring_sum_ = Vec3::Zero();  // of the ring's vertices, a ghost too
     Before before_;
     Evaluation valid_;
     std::array<std::uint32_t, 2> ends_{};

@@ -37,6 +37,15 @@ EdgeStar HalfEdgeMesh::star(HalfEdge h) const {
     return s;
 }
 
+bool HalfEdgeMesh::pinches(HalfEdge h) const {
+    const HalfEdge g = twin(h);
+    int shared = 0;
+    for_each_outgoing(origin(h), [&](HalfEdge left) {
+        for_each_outgoing(origin(g), [&](HalfEdge right) { shared += target(left) == target(right) ? 1 : 0; });
+    });
+    return shared != 2;
+}
+
 void HalfEdgeMesh::collapse(const EdgeStar& s, const Vec3& position) {
     const std::uint32_t i = origin(s.ij);
     const std::uint32_t j = origin(s.ji);

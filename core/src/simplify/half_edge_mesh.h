@@ -53,6 +53,10 @@ public:
 
     [[nodiscard]] EdgeStar star(HalfEdge h) const;
 
+    /// Whether collapsing the edge of h would pinch the surface: its ends share a neighbour besides the two across it (the link
+    /// condition). O(product of valences).
+    [[nodiscard]] bool pinches(HalfEdge h) const;
+
     /// Collapses j into i, which moves to `position`. Two faces and one vertex fewer; on a boundary one of the two is a ghost's.
     /// \pre the link condition holds for the edge. O(valence of j).
     void collapse(const EdgeStar& star, const Vec3& position);

@@ -237,7 +237,7 @@ private:
     /// Queues an edge by its priority, or not at all.
     void settle(HalfEdge edge) {
         if (refusals_[edge] >= kMostRefusals) return;
-        const Evaluation evaluation = evaluator_.evaluate(edge);
+        const Evaluation evaluation = evaluator_.rank(edge);
         out_of_reach_[edge] = evaluation.verdict == Evaluation::Verdict::kOutOfReach ? 1 : 0;
         evaluation.verdict == Evaluation::Verdict::kValid ? queue_.set(edge, evaluation.priority) : queue_.erase(edge);
     }
@@ -256,7 +256,7 @@ private:
             if (context_.cancelled()) return;
             EdgeEvaluator<Policy>& evaluator = evaluators.local();
             for (std::size_t n = range.begin(); n < range.end(); ++n) {
-                const Evaluation evaluation = evaluator.evaluate(edges[n]);
+                const Evaluation evaluation = evaluator.rank(edges[n]);
                 if (evaluation.verdict == Evaluation::Verdict::kValid) priorities[n] = evaluation.priority;
                 out_of_reach_[edges[n]] = evaluation.verdict == Evaluation::Verdict::kOutOfReach ? 1 : 0;
             }
@@ -286,7 +286,8 @@ private:
         const EdgeStar star = mesh_.star(edge);
         // The fan belongs to the edge evaluated last; this one's is made again, for its place and its faces.
         const Evaluation evaluation = evaluator_.evaluate(edge);
-        assert(evaluation.verdict == Evaluation::Verdict::kValid);
+        if (evaluation.verdict != Evaluation::Verdict::kValid) return drop(edge);  // it would pinch the surface
+        assert(evaluation.priority == queue_.priority(edge));
         if (!guards_admit(star, evaluation.position)) {
             ++refusals_[edge];
             return drop(edge);  // until its neighbourhood changes
