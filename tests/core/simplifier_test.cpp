@@ -11,6 +11,7 @@
 #include "simplify/collapse_log.h"
 #include "simplify/edge_evaluator.h"
 #include "simplify/edge_queue.h"
+#include "simplify/fan_shape.h"
 #include "simplify/polish.h"
 #include "simplify/simplify.h"
 #include "tests/core/meshes.h"
@@ -278,6 +279,26 @@ TEST(SimplifierTest, SameBytesForAnyNumberOfThreads) {
     ASSERT_TRUE(left);
     ASSERT_TRUE(right);
     EXPECT_EQ(*left, *right);
+}
+
+TEST(SimplifierTest, SameBytesWithAnyKindOfVector) {
+    const ExecutionContext context;
+    for (const TriangleMesh& mesh : {test::bumpy_sphere(3, 0.02, 4), test::holed_square(12, 2)}) {
+        const SimplifyInput input = test::simplify_input(mesh, 0.02);
+        const auto expected = simplify(input, ImprovePolicy{}, context),
+                   extended = simplify(input, Extended<ImprovePolicy>{}, context);
+        ASSERT_TRUE(expected && extended);
+        for (const std::int64_t path : simd_paths()) {
+            SCOPED_TRACE(simd_path_name(path));
+            use_simd_path(path);
+            const auto found = simplify(input, ImprovePolicy{}, context),
+                       also = simplify(input, Extended<ImprovePolicy>{}, context);
+            use_simd_path(0);
+            ASSERT_TRUE(found && also);
+            EXPECT_EQ(*found, *expected);
+            EXPECT_EQ(*also, *extended);
+        }
+    }
 }
 
 TEST(SimplifierTest, KeepsEveryCollapseWithinTolerance) {

@@ -49,8 +49,8 @@ public:
         return ranked.verdict == Evaluation::Verdict::kValid && mesh_.pinches(h) ? Evaluation{} : ranked;
     }
 
-    /// The same but that an edge may be called valid whose collapse would pinch the surface. Such edges are few, and which they are
-    /// is told soon enough when one is the next to go. O(valence).
+    /// The same but that an edge may be called valid whose collapse would pinch the surface. Such edges are few, and which they
+    /// are is told soon enough when one is the next to go. O(valence).
     [[nodiscard]] Evaluation rank(HalfEdge h) {
         const std::uint32_t i = mesh_.origin(h);
         const std::uint32_t j = mesh_.target(h);
@@ -177,8 +177,8 @@ private:
         return all;
     }
 
-    /// Puts faces counter-clockwise from that of `first` into the fan, from place t to `end`. How many of their spokes and the one
-    /// behind them are creases. Counts in locals: members would go through memory at every step.
+    /// Puts faces counter-clockwise from that of `first` into the fan, from place t to `end`. How many of their spokes and the
+    /// one behind them are creases. Counts in locals: members would go through memory at every step.
     [[nodiscard]] int gather_half(HalfEdge first, std::size_t t, std::size_t end, Before& before) {
         Before sums = before;
         Vec3 ring_sum = ring_sum_;
