@@ -80,11 +80,11 @@ public:
 private:
     HWY_INLINE Spokes spokes(std::size_t t) const {
         const Tag d;
-        const Lanes x = hn::Sub(hn::Load(d, &fan_.x[t]), x_);
-        const Lanes y = hn::Sub(hn::Load(d, &fan_.y[t]), y_);
-        const Lanes z = hn::Sub(hn::Load(d, &fan_.z[t]), z_);
+        const Lanes x = hn::Sub(hn::LoadU(d, &fan_.x[t]), x_);
+        const Lanes y = hn::Sub(hn::LoadU(d, &fan_.y[t]), y_);
+        const Lanes z = hn::Sub(hn::LoadU(d, &fan_.z[t]), z_);
         const Lanes length = length_of(x, y, z);
-        hn::Store(length, d, &fan_.spoke[t]);
+        hn::StoreU(length, d, &fan_.spoke[t]);
         return {x, y, z, length};
     }
 
@@ -95,7 +95,7 @@ private:
         const Lanes cy = hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z));
         const Lanes cz = hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
         const Lanes twice_area = length_of(cx, cy, cz);
-        const Lanes ring = hn::Load(d, &fan_.ring[t]);
+        const Lanes ring = hn::LoadU(d, &fan_.ring[t]);
         // As stretch_of has it.
         const Lanes longest = hn::Max(hn::Max(a.length, ring), b.length);
         const Lanes denominator = hn::Mul(hn::Add(hn::Add(a.length, ring), b.length), longest);
@@ -105,8 +105,8 @@ private:
                                     hn::Mul(cz, load_floats(&fan_.old_nz[t])));
         const Lanes turn = hn::Sub(hn::Mul(hn::Set(d, kLeastTurnCosine), twice_area), along);
         const auto there = hn::FirstN(d, faces_ - t);
-        hn::Store(hn::IfThenElseZero(there, stretch), d, &fan_.stretch[t]);
-        hn::Store(longest, d, &fan_.face_size[t]);
+        hn::StoreU(hn::IfThenElseZero(there, stretch), d, &fan_.stretch[t]);
+        hn::StoreU(longest, d, &fan_.face_size[t]);
         all.stretch_min = hn::Min(all.stretch_min, hn::IfThenElse(there, stretch, all.stretch_min));
         all.size_max = hn::Max(all.size_max, hn::IfThenElseZero(there, longest));
         all.turn = hn::Max(all.turn, hn::IfThenElse(there, turn, all.turn));
@@ -120,10 +120,10 @@ private:
 HWY_INLINE void measure_ring(FanColumns& fan, std::size_t faces) {
     const Tag d;
     for (std::size_t t = 0; t < faces; t += kLanes) {
-        const Lanes dx = hn::Sub(hn::LoadU(d, &fan.x[t + 1]), hn::Load(d, &fan.x[t]));
-        const Lanes dy = hn::Sub(hn::LoadU(d, &fan.y[t + 1]), hn::Load(d, &fan.y[t]));
-        const Lanes dz = hn::Sub(hn::LoadU(d, &fan.z[t + 1]), hn::Load(d, &fan.z[t]));
-        hn::Store(length_of(dx, dy, dz), d, &fan.ring[t]);
+        const Lanes dx = hn::Sub(hn::LoadU(d, &fan.x[t + 1]), hn::LoadU(d, &fan.x[t]));
+        const Lanes dy = hn::Sub(hn::LoadU(d, &fan.y[t + 1]), hn::LoadU(d, &fan.y[t]));
+        const Lanes dz = hn::Sub(hn::LoadU(d, &fan.z[t + 1]), hn::LoadU(d, &fan.z[t]));
+        hn::StoreU(length_of(dx, dy, dz), d, &fan.ring[t]);
     }
 }
 

@@ -21,11 +21,11 @@ struct FanColumns {
     template <class Number>
     using Column = std::array<Number, kRows>;
 
-    alignas(32) Column<double> x{}, y{}, z{};                ///< of the ring
-    alignas(32) Column<double> ring{};                       ///< lengths from each ring vertex to the next
-    alignas(32) Column<double> spoke{};                      ///< lengths from the apex to each ring vertex
-    alignas(32) Column<double> stretch{}, face_size{};       ///< of the faces
-    alignas(32) Column<float> old_nx{}, old_ny{}, old_nz{};  ///< normals of the faces as they were
+    Column<double> x{}, y{}, z{};                ///< of the ring
+    Column<double> ring{};                       ///< lengths from each ring vertex to the next
+    Column<double> spoke{};                      ///< lengths from the apex to each ring vertex
+    Column<double> stretch{}, face_size{};       ///< of the faces
+    Column<float> old_nx{}, old_ny{}, old_nz{};  ///< normals of the faces as they were
 };
 
 /// What a fan would be with its vertex at a place.

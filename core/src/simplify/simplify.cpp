@@ -287,7 +287,8 @@ private:
         // The fan belongs to the edge evaluated last; this one's is made again, for its place and its faces.
         const Evaluation evaluation = evaluator_.evaluate(edge);
         if (evaluation.verdict != Evaluation::Verdict::kValid) return drop(edge);  // it would pinch the surface
-        assert(evaluation.priority == queue_.priority(edge));
+        // Evenness goes by the valences across the edge, whose changes do not reach as far as those of shape.
+        assert(Policy::kExtended || evaluation.priority == queue_.priority(mesh_.edge_of(edge)));
         if (!guards_admit(star, evaluation.position)) {
             ++refusals_[edge];
             return drop(edge);  // until its neighbourhood changes
