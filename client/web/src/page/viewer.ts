@@ -1,0 +1,176 @@
+import { AmbientLight, Color, DirectionalLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Plane, Scene, SphereGeometry, Vector3, WebGLRenderer } from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { Patch, Point } from "../shared/protocol";
+import { Faces } from "./faces";
+import { faceMaterial } from "./material";
+
+export type Slot = "source" | "result";
+export type View = Slot | "both";
+
+const step = 0.08;
+
+/** Input and result, side by side or one of them, with one camera for both. Draws when something has changed. */
+export class Viewer {
+  private readonly renderer = new WebGLRenderer({ antialias: true });
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(35, 1, 0.01, 1000);
+  private readonly controls: OrbitControls;
+  private readonly cutPlane = new Plane(new Vector3(1, 0, 0), Number.MAX_VALUE);
+  private readonly edges = { value: 1 };
+  private readonly faces: Record<Slot, Faces>;
+  private readonly marker = new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ color: 0xff00c8, depthTest: false, transparent: true, opacity: 0.85 }));
+  private half = new Vector3(1, 1, 1);
+  private view: View = "both";
+  private asked = false;
+  private drawn: (() => void)[] = [];
+
+  constructor(private readonly place: HTMLElement) {
+    const material = faceMaterial(this.cutPlane, this.edges);
+    this.faces = { source: new Faces(material), result: new Faces(material) };
+    this.renderer.localClippingEnabled = true;
+    this.renderer.autoClear = false;
+    this.marker.visible = false;
+    const light = new DirectionalLight(0xffffff, 2.2);
+    light.position.set(0.4, 0.7, 1);
+    this.camera.add(light);
+    this.scene.add(new AmbientLight(0xffffff, 1.1), this.camera, this.faces.source.mesh, this.faces.result.mesh, this.marker);
+    place.append(this.renderer.domElement);
+    this.renderer.domElement.setAttribute("aria-hidden", "true");
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.addEventListener("change", () => this.ask());
+    place.addEventListener("keydown", (event) => this.key(event));
+    new ResizeObserver(() => this.resize()).observe(place);
+    this.resize();
+  }
+
+  /** Half the edges of the box around the part, which lies around the origin. */
+  frame(half: Point): void {
+    this.half = new Vector3(...half);
+    this.fit();
+  }
+
+  fit(): void {
+    const radius = Math.max(this.half.length(), 1e-9);
+    this.camera.near = radius / 500;
+    this.camera.far = radius * 50;
+    this.marker.visible = false;
+    this.aim(new Vector3(), new Vector3(0.55, 0.4, 1).normalize().multiplyScalar((radius * 1.15) / Math.sin((this.camera.fov * Math.PI) / 360)));
+  }
+
+  /** To a point from where the camera is now, so near that `size` is well seen. */
+  fly(point: Point, size: number): void {
+    const target = new Vector3(...point);
+    const away = this.camera.position.clone().sub(this.controls.target).normalize();
+    const radius = Math.max(this.half.length(), 1e-9);
+    this.marker.position.copy(target);
+    this.marker.scale.setScalar(Math.max(size, radius * 1e-4) * 0.12);
+    this.marker.visible = true;
+    this.camera.near = Math.min(radius / 500, size / 10 + radius * 1e-6);
+    this.aim(target, away.multiplyScalar(Math.max(12 * size, radius * 0.002)));
+  }
+
+  apply(slot: Slot, patch: Patch): void {
+    this.faces[slot].apply(patch);
+    this.place.dataset[slot] = String(patch.visible);
+    this.ask();
+  }
+
+  clear(slot: Slot): void {
+    this.faces[slot].mesh.visible = false;
+    delete this.place.dataset[slot];
+    this.ask();
+  }
+
+  show(view: View): void {
+    this.view = view;
+    this.resize();
+  }
+
+  showEdges(shown: boolean): void {
+    this.edges.value = shown ? 1 : 0;
+    this.ask();
+  }
+
+  /** Hides what lies beyond `share` of the part along an axis; no axis: nothing. */
+  cut(axis: number | undefined, share: number): void {
+    this.cutPlane.normal.set(axis === 0 ? -1 : 0, axis === 1 ? -1 : 0, axis === 2 ? -1 : 0);
+    this.cutPlane.constant = axis === undefined ? 1 : (2 * share - 1) * this.half.getComponent(axis) * 1.001;
+    this.ask();
+  }
+
+  background(colour: string): void {
+    this.scene.background = null;
+    this.renderer.setClearColor(new Color(colour));
+    this.ask();
+  }
+
+  /** When what was asked for last is on the screen. */
+  afterDraw(): Promise<void> {
+    return new Promise((resolve) => {
+      this.drawn.push(resolve);
+      this.ask();
+    });
+  }
+
+  private aim(target: Vector3, away: Vector3): void {
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).add(away);
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.ask();
+  }
+
+  private key(event: KeyboardEvent): void {
+    const around: Record<string, [number, number]> = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
+    const zoom: Record<string, number> = { "+": 0.9, "=": 0.9, "-": 1.1 };
+    const away = this.camera.position.clone().sub(this.controls.target);
+    const turn = around[event.key];
+    if (turn) {
+      away.applyAxisAngle(this.camera.up, turn[0]);
+      const side = new Vector3().crossVectors(this.camera.up, away).normalize();
+      away.applyAxisAngle(side, turn[1]);
+    } else if (zoom[event.key]) {
+      away.multiplyScalar(zoom[event.key]!);
+    } else if (event.key === "f") {
+      return this.fit();
+    } else {
+      return;
+    }
+    event.preventDefault();
+    this.aim(this.controls.target.clone(), away);
+  }
+
+  private ask(): void {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.draw();
+      for (const resolve of this.drawn.splice(0)) resolve();
+    });
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    if (width === 0 || height === 0) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height);
+    this.camera.aspect = (this.view === "both" ? width / 2 : width) / height;
+    this.camera.updateProjectionMatrix();
+    this.ask();
+  }
+
+  private draw(): void {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    const shown: Slot[] = this.view === "both" ? ["source", "result"] : [this.view];
+    this.renderer.setScissorTest(true);
+    shown.forEach((slot, n) => {
+      const left = Math.floor((n * width) / shown.length), across = Math.ceil(width / shown.length);
+      this.renderer.setViewport(left, 0, across, height);
+      this.renderer.setScissor(left, 0, across, height);
+      this.renderer.clear();
+      for (const other of ["source", "result"] as const) this.faces[other].mesh.visible = other === slot && this.place.dataset[other] !== undefined;
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
+}

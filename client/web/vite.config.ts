@@ -1,0 +1,14 @@
+import { defineConfig } from "vite";
+
+// Names without hashes: CMake lists the files that go into vsplitd.
+export default defineConfig({
+  base: "./",
+  build: {
+    target: "es2022",
+    modulePreload: false,
+    emptyOutDir: true,
+    rollupOptions: { output: { entryFileNames: "page.js", assetFileNames: "page[extname]", codeSplitting: false } },
+  },
+  worker: { format: "es", rollupOptions: { output: { entryFileNames: "worker.js" } } },
+  server: { proxy: { "/v1": "http://127.0.0.1:8080", "/openapi.json": "http://127.0.0.1:8080", "/samples": "http://127.0.0.1:8080" } },
+});
