@@ -13,11 +13,10 @@ const samples = ["bracket.stl", "scan.ply"];
 
 const viewer = new Viewer(find("canvas"));
 const forms: MethodForm[] = [];
-const bench = new Workbench(viewer, (ready, blame) => {
-  for (const form of forms) {
-    form.enabled = ready;
-    if (blame !== undefined) form.blame(blame);
-  }
+let started: MethodForm | undefined;
+const bench = new Workbench(viewer, (ready, problem) => {
+  for (const form of forms) form.enabled = ready;
+  if (problem?.field) started?.blame(problem.field);
   updateDownload();
 });
 
@@ -98,11 +97,13 @@ async function startForms(): Promise<void> {
   const contract = (await response.json()) as Contract;
   for (const verb of ["improve", "control"] as const) {
     const title = verb === "improve" ? "Improve" : "Control";
-    forms.push(new MethodForm(find<HTMLFormElement>(verb), title, methodOptions(contract, `${title}Options`), (options) => {
+    const form: MethodForm = new MethodForm(find<HTMLFormElement>(verb), title, methodOptions(contract, `${title}Options`), (options) => {
       hideProblem();
-      for (const form of forms) form.blame(undefined);
+      for (const other of forms) other.blame(undefined);
+      started = form;
       bench.run(verb, options);
-    }));
+    });
+    forms.push(form);
   }
   const format = find<HTMLSelectElement>("format");
   for (const name of formatsOf(contract)) format.append(element("option", { value: name }, name.toLowerCase().replace(/_/g, " ")));

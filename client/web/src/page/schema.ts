@@ -7,7 +7,7 @@ export interface Option {
   help: string;
   /** What is taken where nothing is said, in the contract's words. */
   standard: string;
-  /** "°", "model units", or nothing. */
+  /** "°", "units" (of the model), or nothing. */
   unit: string;
 }
 
@@ -27,7 +27,7 @@ const lengths = /(size|tolerance|deviation|error|field)$/i;
 
 function unitOf(name: string, description: string): string {
   if (/degrees/i.test(description) || /angle$/i.test(name)) return "°";
-  return lengths.test(name) ? "model units" : "";
+  return lengths.test(name) ? "units" : "";
 }
 
 function standardOf(description: string): string {

@@ -1,4 +1,4 @@
-import { AmbientLight, Color, DirectionalLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Plane, Scene, SphereGeometry, Vector3, WebGLRenderer } from "three";
+import { AmbientLight, Color, ColorManagement, DirectionalLight, LinearSRGBColorSpace, Mesh, MeshBasicMaterial, PerspectiveCamera, Plane, Scene, SphereGeometry, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Patch, Point } from "../shared/protocol";
 import { Faces } from "./faces";
@@ -8,6 +8,9 @@ export type Slot = "source" | "result";
 export type View = Slot | "both";
 
 const step = 0.08;
+
+// Colours go to the screen as the legend shows them.
+ColorManagement.enabled = false;
 
 /** Input and result, side by side or one of them, with one camera for both. Draws when something has changed. */
 export class Viewer {
@@ -22,12 +25,15 @@ export class Viewer {
   private half = new Vector3(1, 1, 1);
   private view: View = "both";
   private asked = false;
+  private moved = false;
   private drawn: (() => void)[] = [];
 
   constructor(private readonly place: HTMLElement) {
     const material = faceMaterial(this.cutPlane, this.edges);
     this.faces = { source: new Faces(material), result: new Faces(material) };
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.localClippingEnabled = true;
+    this.renderer.sortObjects = false;
     this.renderer.autoClear = false;
     this.marker.visible = false;
     const light = new DirectionalLight(0xffffff, 2.2);
@@ -35,9 +41,11 @@ export class Viewer {
     this.camera.add(light);
     this.scene.add(new AmbientLight(0xffffff, 1.1), this.camera, this.faces.source.mesh, this.faces.result.mesh, this.marker);
     place.append(this.renderer.domElement);
+    place.dataset["view"] = this.view;
     this.renderer.domElement.setAttribute("aria-hidden", "true");
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("change", () => this.ask());
+    this.controls.addEventListener("start", () => (this.moved = true));
     place.addEventListener("keydown", (event) => this.key(event));
     new ResizeObserver(() => this.resize()).observe(place);
     this.resize();
@@ -54,17 +62,25 @@ export class Viewer {
     this.camera.near = radius / 500;
     this.camera.far = radius * 50;
     this.marker.visible = false;
-    this.aim(new Vector3(), new Vector3(0.55, 0.4, 1).normalize().multiplyScalar((radius * 1.15) / Math.sin((this.camera.fov * Math.PI) / 360)));
+    this.moved = false;
+    const up = (this.camera.fov * Math.PI) / 360;
+    const narrower = Math.min(up, Math.atan(Math.tan(up) * this.camera.aspect));
+    this.aim(new Vector3(), new Vector3(0.55, 0.4, 1).normalize().multiplyScalar((radius * 1.02) / Math.sin(narrower)));
   }
 
-  /** To a point from where the camera is now, so near that `size` is well seen. */
-  fly(point: Point, size: number): void {
+  /** To a point of a mesh, from outside of its surface, so near that `size` is well seen. */
+  fly(slot: Slot, point: Point, size: number): void {
+    if (this.view !== "both" && this.view !== slot) this.show(slot);
     const target = new Vector3(...point);
     const away = this.camera.position.clone().sub(this.controls.target).normalize();
+    const normal = this.faces[slot].normalAt(target);
+    // Not quite along the normal: from there a surface looks flat.
+    if (normal) away.multiplyScalar(0.45).addScaledVector(normal, away.dot(normal) < -0.9 ? 2 : 1).normalize();
     const radius = Math.max(this.half.length(), 1e-9);
     this.marker.position.copy(target);
     this.marker.scale.setScalar(Math.max(size, radius * 1e-4) * 0.12);
     this.marker.visible = true;
+    this.moved = true;
     this.camera.near = Math.min(radius / 500, size / 10 + radius * 1e-6);
     this.aim(target, away.multiplyScalar(Math.max(12 * size, radius * 0.002)));
   }
@@ -83,6 +99,7 @@ export class Viewer {
 
   show(view: View): void {
     this.view = view;
+    this.place.dataset["view"] = view;
     this.resize();
   }
 
@@ -137,6 +154,7 @@ export class Viewer {
       return;
     }
     event.preventDefault();
+    this.moved = true;
     this.aim(this.controls.target.clone(), away);
   }
 
@@ -157,7 +175,8 @@ export class Viewer {
     this.renderer.setSize(width, height);
     this.camera.aspect = (this.view === "both" ? width / 2 : width) / height;
     this.camera.updateProjectionMatrix();
-    this.ask();
+    if (this.moved) this.ask();
+    else this.fit();
   }
 
   private draw(): void {

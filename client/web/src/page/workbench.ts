@@ -1,7 +1,7 @@
 import { fromJson, type JsonValue } from "@bufbuild/protobuf";
 import { RepresentationSchema, type Representation, type Session } from "../gen/vsplit/v1/meshing_pb";
 import type { ColourBy } from "../shared/colours";
-import type { Figures, News, Point } from "../shared/protocol";
+import type { Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
 import { getQuality, getSession, meshPath } from "./api";
 import { readPlace, writePlace } from "./address";
 import { count, find } from "./dom";
@@ -16,6 +16,11 @@ import type { Slot, Viewer } from "./viewer";
 
 const worstFaces = 20;
 
+/** For measurements: what the last change of resolution took. */
+function stepText(patch: Patch): string {
+  return `${patch.records} records, ${patch.positions.length / 9} faces, ${patch.milliseconds.toFixed(1)} ms`;
+}
+
 /** The session that is open: its two meshes, what is known of them, and what is shown. */
 export class Workbench {
   private session: Session | undefined;
@@ -29,10 +34,10 @@ export class Workbench {
   private source = this.worker("source");
   private result = this.worker("result");
   private readonly progress = new ProgressBar(workPlace(), () => this.result.tell({ kind: "cancel" }));
-  private readonly slider = new ResolutionSlider((faces) => this.result.tell({ kind: "faces", faces }));
+  private readonly slider = new ResolutionSlider((faces) => this.order({ kind: "faces", faces }));
 
   /** `changed`: when methods can be run or not. */
-  constructor(private readonly viewer: Viewer, private readonly changed: (ready: boolean, blame?: string) => void) {}
+  constructor(private readonly viewer: Viewer, private readonly changed: (ready: boolean, problem?: ProblemText) => void) {}
 
   get ready(): boolean {
     return this.session?.source !== undefined;
@@ -46,7 +51,10 @@ export class Workbench {
     this.open(session, place.name ?? "");
     const made = session.representations.find((one) => one.id === place.representation) ?? session.representations.at(-1);
     if (!made) return;
-    this.result.tell({ kind: "open", session: session.id, representation: made.id, faces: place.faces ?? made.faces, centre: this.centre });
+    this.made = made;
+    writePlace({ session: session.id, representation: made.id, faces: place.faces ?? made.faces, name: this.name });
+    this.showNotes();
+    this.order({ kind: "open", session: session.id, representation: made.id, faces: place.faces ?? made.faces, centre: this.centre });
   }
 
   /** A session whose mesh was just uploaded. */
@@ -64,6 +72,7 @@ export class Workbench {
     this.viewer.clear("source");
     this.viewer.clear("result");
     this.slider.off();
+    find("stage").setAttribute("aria-busy", "false");
     const box = session.source!.boundingBox!;
     const low = [box.min!.x, box.min!.y, box.min!.z], high = [box.max!.x, box.max!.y, box.max!.z];
     this.centre = low.map((v, axis) => (v + high[axis]!) / 2) as unknown as Point;
@@ -87,7 +96,7 @@ export class Workbench {
     this.changed(false);
     this.slider.off();
     this.progress.show("queued", 0);
-    this.result.tell({ kind: "method", path: `/v1/sessions/${this.session.id}:${verb}`, body, centre: this.centre });
+    this.order({ kind: "method", path: `/v1/sessions/${this.session.id}:${verb}`, body, centre: this.centre });
   }
 
   colour(by: ColourBy): void {
@@ -99,6 +108,11 @@ export class Workbench {
   /** Where the mesh that is shown can be had as a file. */
   file(format: string): string | undefined {
     return this.session ? meshPath(this.session.id, this.made?.id ?? "", this.faces, format) : undefined;
+  }
+
+  private order(order: Order): void {
+    find("stage").setAttribute("aria-busy", "true");
+    this.result.tell(order);
   }
 
   private worker(slot: Slot): MeshWorker {
@@ -116,7 +130,7 @@ export class Workbench {
         if (slot === "result") {
           this.faces = news.patch.visible;
           this.slider.tell(this.faces);
-          find("canvas").dataset["step"] = `${news.patch.records} records in ${news.patch.milliseconds.toFixed(1)} ms`;
+          if (news.patch.records > 0) find("canvas").dataset["step"] = stepText(news.patch);
         }
         return;
       case "figures":
@@ -131,10 +145,12 @@ export class Workbench {
         return this.take(fromJson(RepresentationSchema, news.json as JsonValue));
       case "problem":
         showProblem(news.problem);
-        return this.changed(this.ready, news.problem.field);
+        return this.changed(this.ready, news.problem);
       case "idle":
-        if (slot === "result") this.progress.hide();
-        if (slot === "result" && this.made) this.slider.set(this.made.facesMin, this.made.facesMax, this.faces);
+        if (slot === "source" || this.result.busy) return;
+        find("stage").setAttribute("aria-busy", "false");
+        this.progress.hide();
+        if (this.made) this.slider.set(this.made.facesMin, this.made.facesMax, this.faces);
         return this.changed(this.ready);
     }
   }
@@ -160,14 +176,14 @@ export class Workbench {
     try {
       const quality = await getQuality(session, made, faces, worstFaces);
       if (session !== this.session?.id || made !== (this.made?.id ?? "") || (made && faces !== this.faces)) return;
-      find("worst").replaceChildren(worstList(quality.worstFaces, (place, size) => this.fly(place, size)));
+      find("worst").replaceChildren(worstList(quality.worstFaces, (place, size) => this.fly(made ? "result" : "source", place, size)));
     } catch (error) {
       showProblem(problemText(error));
     }
   }
 
-  private fly(place: Point, size: number): void {
-    this.viewer.fly(place.map((v, axis) => v - this.centre[axis]!) as unknown as Point, size);
+  private fly(slot: Slot, place: Point, size: number): void {
+    this.viewer.fly(slot, place.map((v, axis) => v - this.centre[axis]!) as unknown as Point, size);
   }
 
   private showQuality(): void {
@@ -177,7 +193,7 @@ export class Workbench {
   }
 
   private showNotes(): void {
-    const findings = findingList(this.session?.source?.findings ?? [], this.diagonal / 100, (place, size) => this.fly(place, size));
+    const findings = findingList(this.session?.source?.findings ?? [], this.diagonal / 100, (place, size) => this.fly("source", place, size));
     const notes = [...(this.made ? resultNotes(this.made) : []), ...findings];
     find("notes").replaceChildren(...(notes.length > 0 ? notes : ["Nothing to report."]));
   }
