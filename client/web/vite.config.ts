@@ -1,4 +1,4 @@
-import { defineConfig } from "vite";
+import { defineConfig } from "vitest/config";
 
 // Names without hashes: CMake lists the files that go into vsplitd.
 export default defineConfig({
@@ -10,5 +10,6 @@ export default defineConfig({
     rollupOptions: { output: { entryFileNames: "page.js", assetFileNames: "page[extname]", codeSplitting: false } },
   },
   worker: { format: "es", rollupOptions: { output: { entryFileNames: "worker.js" } } },
+  test: { include: ["test/*.test.ts"] },
   server: { proxy: { "/v1": "http://127.0.0.1:8080", "/openapi.json": "http://127.0.0.1:8080", "/samples": "http://127.0.0.1:8080" } },
 });

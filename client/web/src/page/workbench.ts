@@ -30,6 +30,7 @@ export class Workbench {
   private centre: Point = [0, 0, 0];
   private diagonal = 1;
   private readonly figures: Partial<Record<Slot, Figures>> = {};
+  private fresh = false;
   private by: ColourBy = "stretch";
   private source = this.worker("source");
   private result = this.worker("result");
@@ -126,8 +127,10 @@ export class Workbench {
   private hear(slot: Slot, news: News): void {
     switch (news.kind) {
       case "patch":
-        this.viewer.apply(slot, news.patch);
-        if (slot === "result") {
+        if (slot === "source") {
+          this.viewer.apply(slot, news.patch);
+        } else {
+          this.draw(news.patch);
           this.faces = news.patch.visible;
           this.slider.tell(this.faces);
           if (news.patch.records > 0) find("canvas").dataset["step"] = stepText(news.patch);
@@ -140,6 +143,8 @@ export class Workbench {
         if (slot === "result" && this.made) this.settle();
         return;
       case "progress":
+        performance.mark("vsplit method ended"); // unless another comes
+        this.fresh = true;
         return this.progress.show(news.stage, news.fraction, news.faces);
       case "representation":
         return this.take(fromJson(RepresentationSchema, news.json as JsonValue));
@@ -163,6 +168,19 @@ export class Workbench {
     this.showNotes();
     this.showQuality();
     this.settle();
+  }
+
+  /** With marks in the browser's timeline: what a change costs, and when it is seen. */
+  private draw(patch: Patch): void {
+    const begun = performance.now();
+    this.viewer.apply("result", patch);
+    performance.measure("vsplit copied", { start: begun });
+    const first = this.fresh;
+    this.fresh = false;
+    void this.viewer.afterDraw().then(() => {
+      if (first) performance.mark("vsplit drawn first");
+      performance.mark("vsplit drawn");
+    });
   }
 
   /** The mesh stays as it is for now: the address names it, and its worst faces are asked for. */
