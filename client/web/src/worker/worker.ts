@@ -19,6 +19,9 @@ const encoding = RecordEncoding.FLOAT32;
 /** A look at all faces takes its time: not at every step of a slider. */
 const figuresAfter = 150;
 
+/** Why a stream ends that nobody wants any more; a stream that a user cancels ends otherwise. */
+const superseded = Symbol("superseded");
+
 const tell = (news: News, transfer: Transferable[] = []): void => self.postMessage(news, { transfer });
 
 let surface: Surface | undefined;
@@ -74,6 +77,7 @@ async function take(path: string, body: object, centre: Point, signal: AbortSign
   if (!response.ok) throw await problemOf(response);
   let base = new BaseParts();
   for await (const { event } of eventsOf(response)) {
+    signal.throwIfAborted();
     const begun = performance.now();
     const before = held?.mesh.records ?? 0;
     if (event.case === "progress") tell({ kind: "progress", stage: event.value.stage, fraction: event.value.fraction, faces: event.value.faces });
@@ -97,16 +101,31 @@ async function take(path: string, body: object, centre: Point, signal: AbortSign
 }
 
 async function stream(path: string, body: object, session: string, centre: Point): Promise<void> {
-  running?.abort();
+  running?.abort(superseded);
   const own = (running = new AbortController());
+  const before = { surface, held, painter };
   try {
     const made = await take(path, { ...body, encoding: RecordEncoding[encoding] }, centre, own.signal);
     opened = { session, representation: made.id };
     show(made.faces);
     tell({ kind: "representation", json: toJson(RepresentationSchema, made) });
+  } catch (error) {
+    if (held !== before.held) goBack(before);
+    if (error !== superseded) throw error;
   } finally {
     if (running === own) running = undefined;
   }
+}
+
+/** To the mesh before one that never was whole: what `opened` names goes with it. */
+function goBack(before: { surface: Surface | undefined; held: HeldMesh | undefined; painter: Painter }): void {
+  ({ surface, held, painter } = before);
+  if (surface) {
+    painter.colourBy(by, by === "size" ? measure(surface).sizeMax : 0);
+    return draw(true, performance.now(), held?.mesh.records ?? 0);
+  }
+  clearTimeout(timer);
+  tell({ kind: "patch", patch: { slots: 0, runs: new Uint32Array(), positions: new Float32Array(), colours: new Uint8Array(), visible: 0, milliseconds: 0, records: 0 } });
 }
 
 function show(faces: number): void {
@@ -119,6 +138,8 @@ function show(faces: number): void {
 /** Up or down among the records that are here; what is finer is asked for. */
 async function goTo(faces: number, centre: Point): Promise<void> {
   if (!held || !opened) return;
+  // Else what was asked for before would have the last word.
+  running?.abort(superseded);
   show(faces);
   if (faces <= held.visibleHeld) return;
   const body = { representation: opened.representation, faces, resumeFrom: held.recordsHeld, facesHeld: held.recordsHeld === 0 ? held.visibleHeld : 0 };
