@@ -1,4 +1,4 @@
-import type { Figures } from "../shared/protocol";
+import type { Figures, Spread } from "../shared/protocol";
 import { Ramp } from "../shared/colours";
 import { count, element, figure } from "./dom";
 
@@ -26,6 +26,22 @@ export function qualityTable({ source, result, deviation }: Columns): HTMLElemen
   body.append(element("tr", {}, element("th", { scope: "row" }, "Deviation, max"), element("td", {}, "–"), distance));
   const head = element("tr", {}, element("td"), element("th", { scope: "col" }, "Input"), element("th", { scope: "col" }, "Result"));
   return element("table", {}, element("thead", {}, head), body);
+}
+
+const spreads: [string, keyof Figures["spread"]][] = [
+  ["Stretch", "stretch"],
+  ["Size", "size"],
+  ["Valence", "valence"],
+];
+
+/** Least, mean and largest of what faces and vertices are measured by. */
+export function spreadTable({ source, result }: Columns): HTMLElement {
+  const text = (spread: Spread): string => spread.map((value) => figure(value, 3)).join(" / ");
+  const cell = (figures: Figures | undefined, of: keyof Figures["spread"]): HTMLElement => element("td", {}, figures ? text(figures.spread[of]) : "–");
+  const body = element("tbody");
+  for (const [name, of] of spreads) body.append(element("tr", {}, element("th", { scope: "row" }, name), cell(source, of), cell(result, of)));
+  const head = element("tr", {}, element("td"), element("th", { scope: "col" }, "Input"), element("th", { scope: "col" }, "Result"));
+  return element("table", { class: "spread" }, element("caption", {}, "Min / mean / max"), element("thead", {}, head), body);
 }
 
 const width = 300, height = 110, foot = 16, bins = 20;

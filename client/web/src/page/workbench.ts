@@ -10,7 +10,7 @@ import { findingList, resultNotes, worstList } from "./lists";
 import { MeshWorker } from "./mesh_worker";
 import { problemText, showProblem } from "./problems";
 import { ProgressBar, workPlace } from "./progress";
-import { qualityTable, stretchHistogram } from "./quality_panel";
+import { qualityTable, spreadTable, stretchHistogram } from "./quality_panel";
 import { ResolutionSlider } from "./resolution";
 import type { Slot, Viewer } from "./viewer";
 
@@ -206,7 +206,7 @@ export class Workbench {
 
   private showQuality(): void {
     const columns = { ...this.figures, deviation: this.made?.faces === this.faces ? this.made.quality?.deviationMax : undefined };
-    find("table").replaceChildren(qualityTable(columns));
+    find("table").replaceChildren(qualityTable(columns), spreadTable(columns));
     find("histogram").replaceChildren(stretchHistogram(columns));
   }
 

@@ -10,6 +10,9 @@ export interface ProblemText {
 
 export type Point = readonly [number, number, number];
 
+/** Least, mean and largest of a figure; zeros where there is nothing. */
+export type Spread = readonly [min: number, mean: number, max: number];
+
 /** Figures of the mesh as a worker holds it. */
 export interface Figures {
   faces: number;
@@ -20,6 +23,8 @@ export interface Figures {
   valenceMax: number;
   /** 20 counts: faces with stretch in [i/20, (i+1)/20). */
   histogram: number[];
+  /** Of faces: stretch, and longest edge; of vertices: edges. */
+  spread: { stretch: Spread; size: Spread; valence: Spread };
 }
 
 /** Faces to draw anew: runs of them, and the bytes of all runs one after the other. Three corners a face, no index. */
