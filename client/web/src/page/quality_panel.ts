@@ -36,8 +36,9 @@ const spreads: [string, keyof Figures["spread"]][] = [
 
 /** Least, mean and largest of what faces and vertices are measured by. */
 export function spreadTable({ source, result }: Columns): HTMLElement {
-  const text = (spread: Spread): string => spread.map((value) => figure(value, 3)).join(" / ");
-  const cell = (figures: Figures | undefined, of: keyof Figures["spread"]): HTMLElement => element("td", {}, figures ? text(figures.spread[of]) : "–");
+  const words = (value: number, of: keyof Figures["spread"]): string => (of === "stretch" ? value.toFixed(2) : figure(value, 3));
+  const text = (spread: Spread, of: keyof Figures["spread"]): string => spread.map((value) => words(value, of)).join(" / ");
+  const cell = (figures: Figures | undefined, of: keyof Figures["spread"]): HTMLElement => element("td", {}, figures ? text(figures.spread[of], of) : "–");
   const body = element("tbody");
   for (const [name, of] of spreads) body.append(element("tr", {}, element("th", { scope: "row" }, name), cell(source, of), cell(result, of)));
   const head = element("tr", {}, element("td"), element("th", { scope: "col" }, "Input"), element("th", { scope: "col" }, "Result"));
