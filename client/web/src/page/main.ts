@@ -87,6 +87,10 @@ function startTools(): void {
     share.disabled = axis.value === "";
     viewer.cut(axis.value === "" ? undefined : Number(axis.value), Number(share.value));
   };
+  viewer.uncut = () => {
+    axis.value = "";
+    cut();
+  };
   axis.addEventListener("change", cut);
   share.addEventListener("input", cut);
   viewer.cut(undefined, 1);

@@ -22,6 +22,8 @@ export class Viewer {
   private readonly edges = { value: 1 };
   private readonly faces: Record<Slot, Faces>;
   private readonly marker = new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ color: 0xff00c8, depthTest: false, transparent: true, opacity: 0.85 }));
+  /** Called where the cut hides what is flown to. */
+  uncut: () => void = () => undefined;
   private half = new Vector3(1, 1, 1);
   private view: View = "both";
   private asked = false;
@@ -72,6 +74,7 @@ export class Viewer {
   fly(slot: Slot, point: Point, size: number): void {
     if (this.view !== "both" && this.view !== slot) this.show(slot);
     const target = new Vector3(...point);
+    if (this.cutPlane.distanceToPoint(target) < 0) this.uncut();
     const away = this.camera.position.clone().sub(this.controls.target).normalize();
     const normal = this.faces[slot].normalAt(target);
     // Not quite along the normal: from there a surface looks flat.
