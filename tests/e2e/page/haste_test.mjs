@@ -2,10 +2,10 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { openPage, run, settled, shownOn, slide, startServer, upload } from "./browser.mjs";
+import { startProxy } from "./stalling_proxy.mjs";
 
 const [vsplitd, data] = process.argv.slice(2);
 
-/** What the server has at the resolution that the slider stands at: the page shows it or is at fault. */
 const asked = (page) => page.evaluate(() => document.getElementById("faces-shown").textContent);
 const complaints = (page) => page.locator("#problems p").allTextContents();
 
@@ -65,14 +65,36 @@ const steps = {
     assert.ok(Math.abs(result - low) <= 2, `${result} faces are shown where ${low} were asked for; the slider says ${await asked(page)}`);
     assert.deepEqual(await complaints(page), []);
   },
+
+  async "a method cancelled while its mesh arrives leaves the one before, with its slider"({ page, address, proxy }) {
+    const before = await shownOn(page);
+    proxy.stall = true;
+    await run(page, "improve", { subdivisionSize: 4, tolerance: 0.2, faces: 30000 });
+    await page.waitForFunction((faces) => Number(document.getElementById("canvas").dataset.result) !== faces, before.result, { timeout: 60000 });
+    await page.click("#work .progress button");
+    proxy.stall = false;
+    await page.waitForSelector("#problems p");
+    assert.match((await complaints(page)).join(), /^CANCELLED/);
+    await page.click("#problems button");
+    await settled(page);
+    assert.deepEqual(await shownOn(page), before);
+    await slide(page, 0.6);
+    await settled(page);
+    const { session, representation, result } = await shownOn(page);
+    const quality = await (await fetch(`${address}/v1/sessions/${session}/quality?representation=${representation}&faces=${result}`)).json();
+    assert.equal(result, quality.faces);
+    assert.notEqual(result, before.result);
+    assert.deepEqual(await complaints(page), []);
+  },
 };
 
 const server = await startServer(vsplitd);
-const opened = await openPage(server.address);
+const proxy = await startProxy(server.address);
+const opened = await openPage(proxy.address);
 try {
   for (const [name, step] of Object.entries(steps)) {
     const begun = performance.now();
-    await step({ ...opened, address: server.address });
+    await step({ ...opened, address: server.address, proxy });
     console.log(`ok: ${name} (${Math.round(performance.now() - begun)} ms)`);
   }
 } catch (error) {
@@ -80,5 +102,6 @@ try {
   process.exitCode = 1;
 } finally {
   await opened.browser.close();
+  proxy.stop();
   await server.stop();
 }
