@@ -28,12 +28,9 @@ rest::Page file(const char* type, std::string_view bytes) {
 rest::Pages page_files() {
     constexpr const char* kScript = "text/javascript; charset=utf-8";
     constexpr const char* kBytes = "application/octet-stream";
-    return {{"/", file("text/html; charset=utf-8", page_html())},
-            {"/page.js", file(kScript, page_script())},
-            {"/worker.js", file(kScript, page_worker())},
-            {"/page.css", file("text/css; charset=utf-8", page_style())},
-            {"/icon.svg", file("image/svg+xml", page_icon())},
-            {"/samples/bracket.stl", file(kBytes, sample_bracket())},
+    return {{"/", file("text/html; charset=utf-8", page_html())}, {"/page.js", file(kScript, page_script())},
+            {"/worker.js", file(kScript, page_worker())},         {"/page.css", file("text/css; charset=utf-8", page_style())},
+            {"/icon.svg", file("image/svg+xml", page_icon())},    {"/samples/bracket.stl", file(kBytes, sample_bracket())},
             {"/samples/scan.ply", file(kBytes, sample_scan())}};
 }
 
