@@ -7,7 +7,7 @@
 namespace vsplit {
 namespace {
 
-constexpr double kFlatNormals = 1e-3;  // share of the normals' square along the axis: 1.8 degrees
+constexpr double kFlatNormals = 0.01;  // share of the square of the normals along the axis: 6 degrees in the mean
 constexpr double kRingNormals = 0.2;   // least share across it in either direction; 0.5 for a whole turn
 
 double area_of(const TriangleMesh& mesh, std::uint32_t f) {

@@ -24,7 +24,7 @@ struct Cylinder {
 };
 
 /// What share of a radius vertices may be off their circle.
-inline constexpr double kRoundness = 0.02;
+inline constexpr double kRoundness = 0.05;
 
 /// The cylinder that a segment of two borders is, if it is one: faces along an axis, vertices at one distance from it, all the
 /// way around. O(faces of the segment).
