@@ -10,7 +10,8 @@ namespace {
 
 class PlateBuilder {
 public:
-    PlateBuilder(std::uint32_t columns, double pitch, double thickness) : columns_(columns), pitch_(pitch), thickness_(thickness) {}
+    PlateBuilder(std::uint32_t columns, double pitch, double thickness)
+        : columns_(columns), pitch_(pitch), thickness_(thickness) {}
 
     TriangleMesh build(const std::vector<Drilling>& drillings) {
         const auto rows = static_cast<std::uint32_t>(drillings.size()) / columns_;

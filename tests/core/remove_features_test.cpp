@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "tests/core/drilled_plate.h"
@@ -77,10 +78,14 @@ TEST(RemoveFeaturesTest, FillsFortyHolesOfACadPlate) {
 TEST(RemoveFeaturesTest, NewFacesFitAMeshMadeForAnalysis) {
     ImproveOptions options;
     options.subdivision_size = 0.8;
+    options.tolerance = 0.02;
     const ExecutionContext context;
     const auto improved = improve(forty_holes(), options, {}, context);
     ASSERT_TRUE(improved) << improved.error().message;
     const TriangleMesh mesh = mesh_at(improved->mrr, improved->mrr.level_for(improved->faces));
+    const auto features = list_features(mesh);
+    ASSERT_TRUE(features);
+    for (const ShapeFeature& f : *features) EXPECT_NEAR(f.diameter, std::round(f.diameter), 0.01 * f.diameter);
     const FeaturelessMesh result = without_all(mesh);
     EXPECT_EQ(result.removed.size(), 40U);
     expect_rest_is_the_same(mesh, result);
@@ -103,7 +108,8 @@ TEST(RemoveFeaturesTest, EachHoleTakesItsVolumeAndThroughHolesTheirGenus) {
         EXPECT_EQ(result->removed, std::vector<std::uint32_t>{id});
         const bool through = feature.kind == ShapeFeature::Kind::kThroughHole;
         EXPECT_EQ(inspect(result->mesh).genus, genus - (through ? 1 : 0));
-        const auto column = static_cast<std::uint32_t>(feature.centre.x() / 10), row = static_cast<std::uint32_t>(feature.centre.y() / 10);
+        const auto column = static_cast<std::uint32_t>(feature.centre.x() / 10),
+                   row = static_cast<std::uint32_t>(feature.centre.y() / 10);
         const test::Drilling& drilling = drillings[8 * row + column];
         const double cylinder = test::polygon_area(drilling.diameter, drilling.sides) * drilling.depth;
         EXPECT_NEAR(enclosed_volume(result->mesh) - enclosed_volume(mesh), cylinder, 1e-9 * cylinder + 1e-9);

@@ -13,8 +13,8 @@
 namespace vsplit {
 namespace {
 
-constexpr double kGoodStretch = 0.4;   // where the search for a size ends
-constexpr double kCoarsestRims = 3;    // faces next to short edges cannot be larger and well shaped
+constexpr double kGoodStretch = 0.4;  // where the search for a size ends
+constexpr double kCoarsestRims = 3;   // faces next to short edges cannot be larger and well shaped
 constexpr double kStep = 0.75;
 constexpr int kMostTries = 6;
 

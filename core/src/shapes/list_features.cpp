@@ -16,8 +16,8 @@ namespace {
 using Kind = ShapeFeature::Kind;
 using Loop = Segments::Loop;
 
-constexpr double kFlat = 0.1;       // share of the normals across the axis under which a ring is a step
-constexpr double kParallel = 0.999; // cosine of the angle between axes that are one
+constexpr double kFlat = 0.1;        // share of the normals across the axis under which a ring is a step
+constexpr double kParallel = 0.999;  // cosine of the angle between axes that are one
 
 /// Where a chain of segments along an axis ends.
 struct End {

@@ -28,7 +28,8 @@ Expected<std::vector<std::uint32_t>> chosen(const std::vector<ShapeFeature>& fea
         return Error{Cause::kInvalidOption, "neither ids nor a diameter are given; one of them says which features go", "ids"};
     if (removal.max_diameter && !(*removal.max_diameter > 0)) {
         return Error{Cause::kInvalidOption,
-                     "max_diameter is " + std::to_string(*removal.max_diameter) + "; accepted are lengths over 0", "max_diameter"};
+                     "max_diameter is " + std::to_string(*removal.max_diameter) + "; accepted are lengths over 0",
+                     "max_diameter"};
     }
     std::set<std::uint32_t> ids;
     for (const std::uint32_t id : removal.ids) {
@@ -53,8 +54,7 @@ struct Filling {
 
 class Remover {
 public:
-    explicit Remover(const TriangleMesh& mesh)
-        : mesh_(mesh), twin_(half_edge_twins(mesh)), gone_(mesh.faces.size(), false) {
+    explicit Remover(const TriangleMesh& mesh) : mesh_(mesh), twin_(half_edge_twins(mesh)), gone_(mesh.faces.size(), false) {
         result_.mesh = mesh;
         result_.size = mean_size(mesh);
     }
@@ -103,7 +103,8 @@ public:
             result_.parent.push_back(beside);
             if (!mesh.regions.empty()) mesh.regions.push_back(mesh_.regions[beside]);
         }
-        if (!result_.removed.empty()) [[maybe_unused]] const WeldCounts dropped = drop_unused(mesh);
+        if (!result_.removed.empty()) [[maybe_unused]]
+            const WeldCounts dropped = drop_unused(mesh);
         return std::move(result_);
     }
 
@@ -115,7 +116,8 @@ private:
         std::set<Edge> added;
         for (const Rim& rim : filling.rims) {
             for (const HalfEdge h : rim) {
-                if (gone_[face_of(twin_[h])]) return Error{Cause::kUnsupported, "its rim lies on a feature that goes as well", ""};
+                if (gone_[face_of(twin_[h])])
+                    return Error{Cause::kUnsupported, "its rim lies on a feature that goes as well", ""};
             }
             const auto has_edge = [&](std::uint32_t a, std::uint32_t b) {
                 return edges_.count(edge(a, b)) > 0 || added.count(edge(a, b)) > 0;

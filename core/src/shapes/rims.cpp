@@ -56,8 +56,8 @@ Expected<std::vector<Triangle>> fill_rim(const TriangleMesh& mesh, const Rim& ri
         vertices.push_back(origin(mesh, h));
         corners.push_back(mesh.positions[vertices.back()]);
     }
-    std::vector<Triangle> faces = triangulate_loop(
-        corners, [&](std::uint32_t i, std::uint32_t j) { return !has_edge(vertices[i], vertices[j]); });
+    std::vector<Triangle> faces =
+        triangulate_loop(corners, [&](std::uint32_t i, std::uint32_t j) { return !has_edge(vertices[i], vertices[j]); });
     const std::string where = "the rim at vertex " + std::to_string(vertices.front());
     if (faces.empty()) return cannot("every filling of " + where + " needs an edge that is there already");
     std::vector<Vec3> areas;
