@@ -77,7 +77,7 @@ TEST(RemoveFeaturesTest, FillsFortyHolesOfACadPlate) {
 
 TEST(RemoveFeaturesTest, NewFacesFitAMeshMadeForAnalysis) {
     ImproveOptions options;
-    options.subdivision_size = 0.8;
+    options.subdivision_size = 1;
     options.tolerance = 0.02;
     const ExecutionContext context;
     const auto improved = improve(forty_holes(), options, {}, context);

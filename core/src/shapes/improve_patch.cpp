@@ -14,9 +14,8 @@ namespace vsplit {
 namespace {
 
 constexpr double kGoodStretch = 0.4;  // where the search for a size ends
-constexpr double kCoarsestRims = 3;   // faces next to short edges cannot be larger and well shaped
-constexpr double kStep = 0.75;
-constexpr int kMostTries = 6;
+constexpr double kStep = 0.7;         // from the size asked for down, as short edges of the border may need smaller faces
+constexpr int kMostTries = 12;
 
 double least_stretch(const TriangleMesh& mesh) {
     double least = 1;
@@ -94,8 +93,9 @@ Patch improve_patch(const Patch& patch, double size) {
     const BorderEdges edges = measure_border(patch);
     Patch best = patch;
     double stretch_of_best = least_stretch(patch.mesh);
-    double aim = std::min(size, kCoarsestRims * edges.mean);
+    double aim = size;
     for (int i = 0; i < kMostTries && stretch_of_best < kGoodStretch; ++i, aim *= kStep) {
+        if (i > 0 && aim < edges.mean / 2) break;
         std::optional<Patch> tried = improved(patch, aim, std::max(size, edges.longest));
         if (!tried) continue;
         const double least = least_stretch(tried->mesh);
