@@ -107,7 +107,7 @@ TEST(FeaturesRpcsTest, SessionsWithoutAMeshOrWithAnOpenOne) {
     EXPECT_FALSE(list(server, empty.message.id()).status.ok());
     EXPECT_THAT(list(server, empty.message.id()).status.error_message(), HasSubstr("no mesh"));
     const std::string open = session_with(server.stub(), square(4));
-    EXPECT_THAT(remove(server, all_under(open, 1)).status.error_message(), HasSubstr("boundary"));
+    EXPECT_THAT(remove(server, all_under(open, 1)).status.error_message(), HasSubstr("the mesh is open"));
 }
 
 }  // namespace
