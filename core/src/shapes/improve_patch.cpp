@@ -59,7 +59,9 @@ std::optional<Patch> renumbered(const TriangleMesh& made, const Patch& patch) {
     if (border.size() != patch.border) return {};
     for (const auto& [from, to] : border) {
         const auto a = places.find(key(made.positions[from])), b = places.find(key(made.positions[to]));
-        if (a == places.end() || b == places.end() || b->second != (a->second + 1) % patch.border) return {};
+        if (a == places.end() || b == places.end()) return {};
+        const std::uint32_t following = a->second + 1 < patch.border ? a->second + 1 : 0;
+        if (b->second != following) return {};
         number[from] = a->second;
     }
     Patch result{{patch.mesh.positions, made.faces}, patch.border};
