@@ -4,6 +4,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <type_traits>
 #include <variant>
 
 #include "cli/arguments.h"
@@ -25,8 +26,14 @@ namespace {
 
 std::string json_of(const Document& document) {
     if (const auto* comparison = std::get_if<Comparison>(&document)) return to_json(*comparison);
-    if (const auto* made = std::get_if<v1::Representation>(&document)) return wire::to_json(*made, wire::JsonStyle::kIndented);
-    return wire::to_json(std::get<v1::MeshSummary>(document), wire::JsonStyle::kIndented);
+    return std::visit(
+        [](const auto& message) -> std::string {
+            if constexpr (std::is_same_v<decltype(message), const Comparison&>)
+                return {};
+            else
+                return wire::to_json(message, wire::JsonStyle::kIndented);
+        },
+        document);
 }
 
 void print(const Arguments& arguments, const Outcome& outcome) {

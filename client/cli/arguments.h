@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "vsplit/method/method_options.h"
+#include "vsplit/shapes/remove_features.h"
 #include "vsplit/v1/meshing.pb.h"
 
 namespace vsplit::cli {
 
-enum class Verb { kInfo, kImprove, kControl, kResolution, kQuality };
+enum class Verb { kInfo, kImprove, kControl, kResolution, kQuality, kFeatures, kRemoveFeatures };
 
 /// The command line, as it was given; nothing is checked here but its grammar.
 struct Arguments {
@@ -32,6 +33,7 @@ struct Arguments {
     std::string against;          ///< quality: the mesh to measure the distance to; empty: none
     std::optional<double> error;  ///< quality against: most error of the distances; empty: the default
     v1::QualityProfile profile = v1::QUALITY_PROFILE_UNSPECIFIED;  ///< quality: whose limits to check
+    FeatureRemoval removal;  ///< features, remove-features: how they are found, and which go
     std::string server;
     std::string session;
     std::string representation;

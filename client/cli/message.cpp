@@ -46,6 +46,9 @@ std::string option_of(const std::string& field) {
                                                                       {"keep", "--keep"},
                                                                       {"source_faces", "--source-faces"},
                                                                       {"output", "-o"},
+                                                                      {"angle", "--angle"},
+                                                                      {"ids", "--id"},
+                                                                      {"max_diameter", "--max-diameter"},
                                                                       {"input", "IN"}};
     const auto found = options.find(field);
     return found == options.end() ? std::string() : std::string(found->second);

@@ -11,7 +11,8 @@
 namespace vsplit::cli {
 
 /// What `--json` prints and what the report tells.
-using Document = std::variant<v1::MeshSummary, v1::Representation, Comparison>;
+using Document =
+    std::variant<v1::MeshSummary, v1::Representation, Comparison, v1::ListFeaturesResponse, v1::RemoveFeaturesResponse>;
 
 /// What a verb came to.
 struct Outcome {

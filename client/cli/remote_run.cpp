@@ -30,7 +30,9 @@ Status check_arguments(const Arguments& a) {
     if (Status valid = check_input(a); !valid) return valid;
     if (!a.against.empty()) return invalid("two meshes are compared without a server; leave --server out", "against");
     const bool method = a.verb == Verb::kImprove || a.verb == Verb::kControl;
-    if (!method && is_representation_file(a.input)) {
+    const bool features = a.verb == Verb::kFeatures || a.verb == Verb::kRemoveFeatures;
+    if (features && !a.representation.empty()) return invalid("features are those of the upload", "representation");
+    if (!method && !features && is_representation_file(a.input)) {
         return invalid("a .vsplit file is read without a server; leave --server out", "server");
     }
     if (a.verb == Verb::kResolution && a.session.empty()) return invalid("a session with a representation is needed", "session");
@@ -61,6 +63,10 @@ public:
             case Verb::kInfo:
             case Verb::kQuality:
                 return arguments_.representation.empty() ? describe_upload() : describe_representation();
+            case Verb::kFeatures:
+                return features();
+            case Verb::kRemoveFeatures:
+                return remove_features();
         }
         return Error{Cause::kInternal, "no such verb", ""};
     }
@@ -161,6 +167,29 @@ private:
         }
         if (Status downloaded = download_upload(); !downloaded) return downloaded.error();
         return Outcome{std::move(summary), {}, {}};
+    }
+
+    Expected<Outcome> features() {
+        v1::ListFeaturesRequest request;
+        request.set_session(session_.id());
+        request.set_angle(arguments_.removal.search.angle);
+        Expected<v1::ListFeaturesResponse> list = client_.list_features(request, call_);
+        if (!list) return list.error();
+        if (Status downloaded = download_upload(); !downloaded) return downloaded.error();
+        return Outcome{*std::move(list), {}, {}};
+    }
+
+    Expected<Outcome> remove_features() {
+        const FeatureRemoval& removal = arguments_.removal;
+        v1::RemoveFeaturesRequest request;
+        request.set_session(session_.id());
+        request.set_angle(removal.search.angle);
+        request.mutable_ids()->Assign(removal.ids.begin(), removal.ids.end());
+        if (removal.max_diameter) request.set_max_diameter(*removal.max_diameter);
+        Expected<v1::RemoveFeaturesResponse> done = client_.remove_features(request, call_);
+        if (!done) return done.error();
+        if (Status downloaded = download_upload(); !downloaded) return downloaded.error();
+        return Outcome{*std::move(done), {}, {}};
     }
 
     Status download_upload() {

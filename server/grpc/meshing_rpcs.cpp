@@ -11,9 +11,11 @@
 #include "grpc/replies.h"
 #include "grpc/upload_stream.h"
 #include "service/guarded.h"
+#include "service/session_features.h"
 #include "vsplit/quality/mesh_quality.h"
 #include "wire/convert.h"
 #include "wire/error_table.h"
+#include "wire/features.h"
 
 namespace vsplit::rpc {
 namespace {
@@ -66,6 +68,22 @@ Status get_quality(service::MeshingService& service, const v1::GetQualityRequest
     if (!picked) return picked.error();
     response = wire::to_proto(picked->quality(), worst_faces(*picked->mesh(), worst));
     if (*profile) *response.mutable_profile() = wire::to_proto(check_profile(*picked->mesh(), **profile, worst));
+    return Done{};
+}
+
+Status list_features(service::MeshingService& service, const v1::ListFeaturesRequest& request,
+                     v1::ListFeaturesResponse& response) {
+    const auto features = service::list_features_of(service, request.session(), wire::search_of(request));
+    if (!features) return features.error();
+    response = wire::to_proto(*features);
+    return Done{};
+}
+
+Status remove_features(service::MeshingService& service, const v1::RemoveFeaturesRequest& request,
+                       v1::RemoveFeaturesResponse& response) {
+    const auto done = service::remove_features_of(service, request.session(), wire::from_proto(request));
+    if (!done) return done.error();
+    response = wire::to_proto(done->made, done->source->report);
     return Done{};
 }
 
@@ -141,6 +159,18 @@ grpc::ServerWriteReactor<v1::MeshChunk>* MeshingRpcs::DownloadMesh(Context* /*co
 grpc::ServerUnaryReactor* MeshingRpcs::GetQuality(Context* context, const v1::GetQualityRequest* request, v1::Quality* response) {
     return answer_later(context, RpcWatch(ledger_, "GetQuality", request->session()), &service::MeshingService::errand,
                         [this, request, response] { return get_quality(service_, *request, *response); });
+}
+
+grpc::ServerUnaryReactor* MeshingRpcs::ListFeatures(Context* context, const v1::ListFeaturesRequest* request,
+                                                    v1::ListFeaturesResponse* response) {
+    return answer_later(context, RpcWatch(ledger_, "ListFeatures", request->session()), &service::MeshingService::errand,
+                        [this, request, response] { return list_features(service_, *request, *response); });
+}
+
+grpc::ServerUnaryReactor* MeshingRpcs::RemoveFeatures(Context* context, const v1::RemoveFeaturesRequest* request,
+                                                      v1::RemoveFeaturesResponse* response) {
+    return answer_later(context, RpcWatch(ledger_, "RemoveFeatures", request->session()), &service::MeshingService::intake,
+                        [this, request, response] { return remove_features(service_, *request, *response); });
 }
 
 }  // namespace vsplit::rpc

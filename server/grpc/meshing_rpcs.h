@@ -32,6 +32,10 @@ public:
     EventReactor* SetResolution(Context* context, const v1::SetResolutionRequest* request) override;
     grpc::ServerWriteReactor<v1::MeshChunk>* DownloadMesh(Context* context, const v1::DownloadMeshRequest* request) override;
     UnaryReactor* GetQuality(Context* context, const v1::GetQualityRequest* request, v1::Quality* response) override;
+    UnaryReactor* ListFeatures(Context* context, const v1::ListFeaturesRequest* request,
+                               v1::ListFeaturesResponse* response) override;
+    UnaryReactor* RemoveFeatures(Context* context, const v1::RemoveFeaturesRequest* request,
+                                 v1::RemoveFeaturesResponse* response) override;
 
 private:
     using Answer = std::function<Status()>;

@@ -37,6 +37,10 @@ public:
     /// Replaces the mesh and drops all representations. \return as `require_idle`.
     [[nodiscard]] Status set_source(std::shared_ptr<const SourceMesh> source);
 
+    /// The same for a mesh that was made from `before`. \return also BUSY where that is no longer the session's.
+    [[nodiscard]] Status replace_source(const std::shared_ptr<const SourceMesh>& before,
+                                        std::shared_ptr<const SourceMesh> source);
+
     /// \return NOT_FOUND when closed.
     [[nodiscard]] Expected<SessionSnapshot::RepresentationPointer> add_representation(MeshRef source, MethodResult result);
 
@@ -61,6 +65,8 @@ private:
     [[nodiscard]] SessionSnapshot snapshot_locked() const;
     [[nodiscard]] Status require_open_locked() const;
     [[nodiscard]] Status require_idle_locked() const;
+    [[nodiscard]] Status set_source_locked(std::shared_ptr<const SourceMesh>& source,
+                                           std::vector<SessionSnapshot::RepresentationPointer>& dropped);
 
     const std::string id_;
     const std::uint64_t number_;

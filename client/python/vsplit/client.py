@@ -68,6 +68,14 @@ class Client:
             session=session, representation=representation, faces=faces, format=v1.MeshFormat.Value(format))
         return b"".join(chunk.data for chunk in self._stub.DownloadMesh(request))
 
+    def features(self, session, **options):
+        """ShapeFeature messages of the session's mesh. `options`: the fields of ListFeaturesRequest."""
+        return list(self._stub.ListFeatures(v1.ListFeaturesRequest(session=session, **options)).features)
+
+    def remove_features(self, session, *, ids=(), **options):
+        """Takes features off the session's mesh; a RemoveFeaturesResponse. `options`: `max_diameter`, `angle`."""
+        return self._stub.RemoveFeatures(v1.RemoveFeaturesRequest(session=session, ids=ids, **options))
+
     def delete(self, session):
         self._stub.DeleteSession(v1.DeleteSessionRequest(session=session))
 

@@ -32,6 +32,8 @@
 #include "vsplit/quality/slivers.h"
 #include "vsplit/quality/stretch.h"
 #include "vsplit/repair/repair_mesh.h"
+#include "vsplit/shapes/remove_features.h"
+#include "vsplit/shapes/shape_features.h"
 #include "vsplit/simplify/quadric.h"
 #include "vsplit/sizing/size_field.h"
 #include "vsplit/sizing/sizing_options.h"

@@ -73,6 +73,12 @@ public:
 
     [[nodiscard]] Expected<v1::Quality> get_quality(const v1::GetQualityRequest& request, const CallOptions& call = {});
 
+    [[nodiscard]] Expected<v1::ListFeaturesResponse> list_features(const v1::ListFeaturesRequest& request,
+                                                                   const CallOptions& call = {});
+
+    [[nodiscard]] Expected<v1::RemoveFeaturesResponse> remove_features(const v1::RemoveFeaturesRequest& request,
+                                                                       const CallOptions& call = {});
+
 private:
     struct Impl;
     explicit MeshingClient(std::unique_ptr<Impl> impl);
