@@ -43,10 +43,11 @@ class Volume:
 
 
 def write_deck(path, volume, held, acceleration):
+    # CalculiX reads 20 characters of a number.
     with open(path, "w", encoding="ascii") as out:
         out.write("*NODE, NSET=Nall\n")
         for number, (x, y, z) in zip(volume.ids, volume.points):
-            out.write(f"{number}, {x:.17g}, {y:.17g}, {z:.17g}\n")
+            out.write(f"{number}, {x:.12g}, {y:.12g}, {z:.12g}\n")
         out.write("*ELEMENT, TYPE=C3D10, ELSET=Eall\n")
         for i, nodes in enumerate(volume.tetrahedra):
             out.write(f"{i + 1}, {', '.join(map(str, nodes))}\n")
