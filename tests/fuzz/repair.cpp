@@ -28,7 +28,8 @@ TriangleMesh mesh_of(std::span<const std::uint8_t> bytes) {
 void check_repaired(const TriangleMesh& before, const RepairedMesh& repaired) {
     const TriangleMesh& mesh = repaired.mesh;
     fuzz::check(repaired.parent.size() == mesh.faces.size(), "every face has a parent");
-    for (const std::uint32_t parent : repaired.parent) fuzz::check(parent < before.face_count(), "parents are faces of the input");
+    for (const std::uint32_t parent : repaired.parent)
+        fuzz::check(parent < before.face_count(), "parents are faces of the input");
     fuzz::check(mesh.regions.size() == mesh.faces.size(), "every face keeps a region");
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         for (const std::uint32_t v : mesh.faces[f]) fuzz::check(v < mesh.vertex_count(), "indices are in range");
