@@ -19,6 +19,7 @@
 #include "ops/listen_address.h"
 #include "ops/logging.h"
 #include "ops/metrics.h"
+#include "ops/page.h"
 #include "ops/server_options.h"
 #include "rest/openapi.h"
 #include "rest/rest_server.h"
@@ -75,6 +76,7 @@ rest::Backend backend_of(rpc::GrpcServer& server, service::MeshingService& servi
     backend.services = {v1::Meshing::service_full_name()};
     backend.ready = [&server] { return server.ready(); };
     backend.metrics = [&metrics, &service] { return metrics.text(service.load()); };
+    backend.pages = page_files();
     backend.version = VSPLIT_VERSION;
     return backend;
 }
