@@ -76,7 +76,7 @@ Expected<Outcome> execute(const Arguments& arguments, const std::vector<Output>&
                                                          : run_on_server(arguments, outputs, progress, interrupt.token());
     if (!outcome) return outcome;
     if (interrupt.token().stop_requested()) return ExecutionContext::cancelled_error();
-    if (Status written = write_outputs(*outcome, outputs); !written) return written.error();
+    if (Status written = write_outputs(*outcome, outputs, arguments.order); !written) return written.error();
     return outcome;
 }
 

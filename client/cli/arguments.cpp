@@ -83,6 +83,11 @@ void add_output(CLI::App& verb, Arguments& a) {
                     "bdf, vtk, vtk-ascii, "
                     "vtu or vsplit")
         ->type_name("F");
+    verb.add_option("--order", a.order,
+                    "Of the elements in OUT: 1, or 2 for triangles of six nodes, the middle ones on the surface worked on, of a "
+                    ".vsplit file on its finest resolution (msh, inp, bdf, vtk, vtu). Default 1")
+        ->check(CLI::Range(1U, 2U).description(""))
+        ->type_name("N");
     verb.add_flag("--json", a.json, "Print one JSON document on the standard output");
     verb.add_flag("--no-progress", a.no_progress, "No progress bar; there is none anyway where stderr is no terminal");
     verb.add_option("--threads", a.threads, "Threads to use, 0 to 1024; the result does not depend on it. Default 0: all cores")

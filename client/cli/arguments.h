@@ -19,7 +19,8 @@ struct Arguments {
     Verb verb = Verb::kInfo;
     std::string input;  ///< file; empty or "-" with a session
     std::vector<std::string> outputs;
-    std::string format;  ///< of the outputs; empty: by extension
+    std::string format;       ///< of the outputs; empty: by extension
+    std::uint32_t order = 1;  ///< of the outputs' elements
     bool json = false;
     bool no_progress = false;
     unsigned threads = 0;  ///< 0: all cores

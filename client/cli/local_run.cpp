@@ -71,7 +71,7 @@ template <class Options>
 Expected<Outcome> run_method(const Arguments& a, const Options& options, const MethodFunction& method, ProgressBar& progress,
                              const std::stop_token& stop) {
     if (Status valid = check_options(options); !valid) return valid.error();
-    const Expected<TriangleMesh> source = read_any(a.input, a.source_faces, a);
+    Expected<TriangleMesh> source = read_any(a.input, a.source_faces, a);
     if (!source) return source.error();
     ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
     const StopCallback on_stop(stop, [&context] { context.cancel(); });
@@ -80,7 +80,7 @@ Expected<Outcome> run_method(const Arguments& a, const Options& options, const M
     if (!result) return result.error();
     v1::Representation made = wire::describe("", "", source->face_count(), *result);
     TriangleMesh mesh = mesh_at(result->mrr, result->mrr.level_for(result->faces));
-    return Outcome{std::move(made), std::move(mesh), std::move(result->mrr)};
+    return Outcome{std::move(made), std::move(mesh), std::move(result->mrr), *std::move(source)};
 }
 
 Expected<Outcome> run_improve(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {

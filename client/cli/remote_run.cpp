@@ -141,6 +141,12 @@ private:
                          ""};
         }
         std::optional<MultiresMesh> whole;
+        if (arguments_.order == 2) {
+            // The surface that mid-side nodes are put on is with the server.
+            if (Status downloaded = download(made->id(), made->faces()); !downloaded) return downloaded.error();
+            if (wants_representation(outputs_)) whole = receiver_.held();
+            return Outcome{*std::move(made), {}, std::move(whole)};
+        }
         if (wants_representation(outputs_)) whole = receiver_.held();
         return Outcome{*std::move(made), receiver_.mesh(), std::move(whole)};
     }
@@ -165,7 +171,7 @@ private:
             if (!measured) return measured.error();
             *summary.mutable_quality() = *std::move(measured);
         }
-        if (Status downloaded = download_upload(); !downloaded) return downloaded.error();
+        if (Status downloaded = download("", 0); !downloaded) return downloaded.error();
         return Outcome{std::move(summary), {}, {}};
     }
 
@@ -175,7 +181,7 @@ private:
         request.set_angle(arguments_.removal.search.angle);
         Expected<v1::ListFeaturesResponse> list = client_.list_features(request, call_);
         if (!list) return list.error();
-        if (Status downloaded = download_upload(); !downloaded) return downloaded.error();
+        if (Status downloaded = download("", 0); !downloaded) return downloaded.error();
         return Outcome{*std::move(list), {}, {}};
     }
 
@@ -188,16 +194,20 @@ private:
         if (removal.max_diameter) request.set_max_diameter(*removal.max_diameter);
         Expected<v1::RemoveFeaturesResponse> done = client_.remove_features(request, call_);
         if (!done) return done.error();
-        if (Status downloaded = download_upload(); !downloaded) return downloaded.error();
+        if (Status downloaded = download("", 0); !downloaded) return downloaded.error();
         return Outcome{*std::move(done), {}, {}};
     }
 
-    Status download_upload() {
+    /// Of a representation, or of the upload where its id is empty.
+    Status download(const std::string& representation, std::uint32_t faces_asked) {
         for (const Output& output : outputs_) {
             if (!output.format) continue;  // write_outputs says that there is no representation
             v1::DownloadMeshRequest request;
             request.set_session(session_.id());
             request.set_format(wire::to_proto(output.format));
+            request.set_order(arguments_.order);
+            request.set_representation(representation);
+            request.set_faces(faces_asked);
             const auto faces = client_.download_mesh(request, output.path, call_);
             if (!faces) return faces.error();
         }
