@@ -58,13 +58,13 @@ std::string file_name(const service::MeshRef& mesh, MeshFormat format) {
 DownloadSource::DownloadSource(const service::PickedMesh& mesh, MeshFormat format, std::shared_ptr<Prepared> prepared)
     : mesh_(mesh.ref()), format_(format), prepared_(std::move(prepared)) {}
 
-Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service,
+Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service, const service::Caller& caller,
                                                                              const v1::DownloadMeshRequest& request,
                                                                              const Wake& wake) {
     const Expected<std::optional<MeshFormat>> asked = wire::from_proto(request.format());
     if (!asked) return asked.error();
     const MeshFormat format = asked->value_or(MeshFormat::kStlBinary);
-    const Expected<service::SessionSnapshot> session = service.snapshot(request.session());
+    const Expected<service::SessionSnapshot> session = service.snapshot(request.session(), caller);
     if (!session) return session.error();
     Expected<service::PickedMesh> mesh = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
     if (!mesh) return mesh.error();

@@ -33,8 +33,9 @@ public:
     grpc::ServerWriteReactor<v1::MeshChunk>* DownloadMesh(Context* context, const v1::DownloadMeshRequest* request) override;
     UnaryReactor* GetQuality(Context* context, const v1::GetQualityRequest* request, v1::Quality* response) override;
 
+    using Answer = std::function<Status(const service::Caller& caller)>;
+
 private:
-    using Answer = std::function<Status()>;
 
     UnaryReactor* answer_now(Context* context, const RpcWatch& watch, const Answer& answer);
     /// On a thread of the pool that `submit` stands for.
@@ -42,7 +43,7 @@ private:
     UnaryReactor* answer_later(Context* context, const RpcWatch& watch, Submit submit, Answer answer);
 
     template <class Source, class Request>
-    auto* stream(const char* method, const Request& request);
+    auto* stream(Context& context, const char* method, const Request& request);
 
     service::MeshingService& service_;
     RpcLedger& ledger_;
