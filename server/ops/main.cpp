@@ -22,6 +22,7 @@
 #include "ops/logging.h"
 #include "ops/metrics.h"
 #include "ops/new_token.h"
+#include "ops/self_check.h"
 #include "ops/server_options.h"
 #include "rest/openapi.h"
 #include "rest/rest_server.h"
@@ -197,7 +198,11 @@ int run(int argc, const char* const* argv) {
         if (!at) return fail(at.error().message);
         http = *at;
     }
-    if (Status safe = check_exposure(options, *address, http); !safe) return fail(safe.error().message);
+    if (Status safe = options.check ? Status(Done{}) : check_exposure(options, *address, http); !safe) return fail(safe.error().message);
+    if (options.check) {
+        const Status serves = check_server(*address, options.tls);
+        return serves ? 0 : fail(serves.error().message);
+    }
     block_stop_signals();
     return_large_memory();
     start_logging({options.log_level, options.log_format == "json", options.slow_job});

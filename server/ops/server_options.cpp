@@ -43,6 +43,7 @@ public:
 
     ServerOptions options() {
         options_.service.session_ttl = std::chrono::seconds(ttl_);
+        std::erase(options_.rest.cors_origins, "");  // how a file says that there is none
         // Who asks for a free port wants to be in nobody's way.
         if (http_->empty() && takes_free_port(options_.listen)) options_.http = "127.0.0.1:0";
         return options_;
@@ -56,8 +57,10 @@ private:
         app_.add_option("--cors-origin", options_.rest.cors_origins,
                         "Origin of web pages that may use REST, e.g. https://example.org, or *; several are allowed. Default: none")
             ->delimiter(',')
+            ->default_str("")
             ->option_text("ORIGIN ...");
         app_.add_flag("--print-openapi", options_.print_openapi, "Print the OpenAPI document and end")->configurable(false);
+        app_.add_flag("--check", options_.check, "Ask the server at --listen whether it serves; ends with 0 if so")->configurable(false);
         app_.add_flag("--print-config", print_config_, "Print what holds, as a file for --config, and end")->configurable(false);
     }
 

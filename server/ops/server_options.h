@@ -20,6 +20,7 @@ struct ServerOptions {
     std::string http = "127.0.0.1:8080";     ///< REST, as `listen`; "off" for none
     rest::RestOptions rest;
     bool print_openapi = false;
+    bool check = false;  ///< asks the server at `listen` whether it serves, and ends
     service::ServiceOptions service;
     std::string log_level = "info";  ///< debug, info, warning, error, off
     std::string log_format = "text";  ///< text, json

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "guard/token_file.h"
 #include "ops/exposure.h"
 #include "ops/new_token.h"
 
