@@ -74,6 +74,17 @@ public:
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
+private:
+    template <class Call>
+    auto timed(const char* name, const Call& call) {
+        const auto start = Clock::now();
+        auto result = call();
+        const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+        tally_.note(name, ms, result ? nullptr : &result.error());
+        return result;
+    }
+
+public:
     void run(Clock::time_point until) {
         if (!client_) return tally_.note("connect", 0, &client_.error());
         while (Clock::now() < until) {
@@ -88,15 +99,6 @@ public:
     }
 
 private:
-    template <class Call>
-    auto timed(const char* name, const Call& call) {
-        const auto start = Clock::now();
-        auto result = call();
-        const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-        tally_.note(name, ms, result ? nullptr : &result.error());
-        return result;
-    }
-
     void look(const std::string& session, int times) {
         for (int i = 0; i < times; ++i) static_cast<void>(timed("GetSession", [&] { return client_->get_session(session); }));
     }
