@@ -15,6 +15,7 @@
 #include <map>
 #include <mutex>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,6 +27,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// After a refusal; Retry-After asks for more.
+constexpr std::chrono::milliseconds kPause(200);
+
+constexpr double kSize = 20;             // subdivision of the bracket, whose box is 228 across: a second of work
 constexpr double kMostP99 = 50;          // ms, of GetSession
 constexpr double kMostGrowth = 1.15;     // of memory, from the second round to the last
 constexpr double kMostGrowthMb = 64;     // or this
@@ -69,7 +74,7 @@ private:
 class Worker {
 public:
     Worker(const std::string& target, std::span<const std::byte> mesh, Tally& tally, unsigned number)
-        : client_(client::MeshingClient::connect(target)), mesh_(mesh), tally_(tally), file_("load_" + std::to_string(number) + ".stl") {}
+        : client_(client::MeshingClient::connect(target)), mesh_(mesh), tally_(tally), number_(number), file_("load_" + std::to_string(number) + ".stl") {}
     ~Worker() { std::remove(file_.c_str()); }
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
@@ -80,61 +85,74 @@ private:
         const auto start = Clock::now();
         auto result = call();
         const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-        tally_.note(name, ms, result ? nullptr : &result.error());
+        const bool cut_off = !result && call_.stop.stop_requested() && result.error().cause == Cause::kCancelled;
+        if (!cut_off) tally_.note(name, ms, result ? nullptr : &result.error());
         return result;
     }
 
 public:
-    void run(Clock::time_point until) {
+    /// Until `stop`, which cuts off what it finds under way.
+    void run(const std::stop_token& stop) {
+        call_.stop = stop;
         if (!client_) return tally_.note("connect", 0, &client_.error());
-        while (Clock::now() < until) {
-            const auto session = timed("CreateSession", [&] { return client_->create_session(); });
+        while (!stop.stop_requested()) {
+            const auto session = timed("CreateSession", [&] { return client_->create_session(call_); });
             if (!session) {
-                std::this_thread::sleep_for(std::chrono::milliseconds(100));  // as Retry-After asks, but impatient
+                std::this_thread::sleep_for(kPause);
                 continue;
             }
-            work_in(session->id(), until);
+            work_in(session->id());
             static_cast<void>(timed("DeleteSession", [&] { return client_->delete_session(session->id()); }));
         }
     }
 
 private:
     void look(const std::string& session, int times) {
-        for (int i = 0; i < times; ++i) static_cast<void>(timed("GetSession", [&] { return client_->get_session(session); }));
+        for (int i = 0; i < times; ++i) static_cast<void>(timed("GetSession", [&] { return client_->get_session(session, call_); }));
     }
 
-    void work_in(const std::string& session, Clock::time_point until) {
-        if (!timed("UploadMesh", [&] { return client_->upload_mesh(session, mesh_); })) return;
+    Expected<v1::Representation> improve(const std::string& session) {
+        v1::ImproveRequest request;
+        request.set_session(session);
+        request.mutable_options()->set_mode(v1::STRICT);
+        request.mutable_options()->set_subdivision_size(kSize);
+        return timed("Improve", [&] { return client_->improve(request, {}, call_); });
+    }
+
+    Expected<v1::Representation> control(const std::string& session) {
+        v1::ControlRequest request;
+        request.set_session(session);
+        request.mutable_options()->set_mode(v1::STRICT);
+        return timed("Control", [&] { return client_->control(request, {}, call_); });
+    }
+
+    void work_in(const std::string& session) {
+        if (!timed("UploadMesh", [&] { return client_->upload_mesh(session, mesh_, {}, call_); })) return;
         look(session, 5);
-        v1::ImproveRequest improve;
-        improve.set_session(session);
-        const auto improved = timed("Improve", [&] { return client_->improve(improve); });
+        const Expected<v1::Representation> made = number_ % 2 == 0 ? improve(session) : control(session);
         look(session, 5);
-        if (!improved || Clock::now() > until) return;
-        v1::ControlRequest control;
-        control.set_session(session);
-        const auto controlled = timed("Control", [&] { return client_->control(control); });
-        look(session, 5);
-        if (!controlled) return;
+        if (!made) return std::this_thread::sleep_for(kPause);
         v1::SetResolutionRequest resolution;
         resolution.set_session(session);
-        resolution.set_representation(controlled->id());
-        resolution.set_faces(controlled->faces_max());
-        static_cast<void>(timed("SetResolution", [&] { return client_->set_resolution(resolution); }));
+        resolution.set_representation(made->id());
+        resolution.set_faces(made->faces_max());
+        static_cast<void>(timed("SetResolution", [&] { return client_->set_resolution(resolution, {}, call_); }));
         v1::DownloadMeshRequest download;
         download.set_session(session);
-        static_cast<void>(timed("DownloadMesh", [&] { return client_->download_mesh(download, file_); }));
+        static_cast<void>(timed("DownloadMesh", [&] { return client_->download_mesh(download, file_, call_); }));
         v1::GetQualityRequest quality;
         quality.set_session(session);
-        static_cast<void>(timed("GetQuality", [&] { return client_->get_quality(quality); }));
+        static_cast<void>(timed("GetQuality", [&] { return client_->get_quality(quality, call_); }));
         v1::ListSessionsRequest list;
         list.set_page_size(10);
-        static_cast<void>(timed("ListSessions", [&] { return client_->list_sessions(list); }));
+        static_cast<void>(timed("ListSessions", [&] { return client_->list_sessions(list, call_); }));
     }
 
     Expected<client::MeshingClient> client_;
+    client::CallOptions call_;
     std::span<const std::byte> mesh_;
     Tally& tally_;
+    const unsigned number_;
     const std::string file_;
 };
 
@@ -150,9 +168,11 @@ double resident_mb(const std::string& pid) {
 
 bool one_round(const std::string& target, std::span<const std::byte> mesh, unsigned clients, double seconds) {
     Tally tally;
-    const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    std::stop_source stop;
     std::vector<std::thread> threads;
-    for (unsigned i = 0; i < clients; ++i) threads.emplace_back([&, i] { Worker(target, mesh, tally, i).run(until); });
+    for (unsigned i = 0; i < clients; ++i) threads.emplace_back([&, i] { Worker(target, mesh, tally, i).run(stop.get_token()); });
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    stop.request_stop();
     for (std::thread& thread : threads) thread.join();
     return tally.report();
 }
