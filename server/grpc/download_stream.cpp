@@ -58,7 +58,8 @@ std::string file_name(const service::MeshRef& mesh, MeshFormat format) {
 DownloadSource::DownloadSource(const service::PickedMesh& mesh, MeshFormat format, std::shared_ptr<Prepared> prepared)
     : mesh_(mesh.ref()), format_(format), prepared_(std::move(prepared)) {}
 
-Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service, const service::Caller& caller,
+Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service,
+                                                                             const service::Caller& caller,
                                                                              const v1::DownloadMeshRequest& request,
                                                                              const Wake& wake) {
     const Expected<std::optional<MeshFormat>> asked = wire::from_proto(request.format());

@@ -19,7 +19,8 @@ public:
     static constexpr std::size_t kChunkBytes = std::size_t{256} * 1024;
 
     /// \return NOT_FOUND, NOT_READY, INVALID_OPTION, UNAVAILABLE.
-    [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service, const service::Caller& caller,
+    [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
+                                                                       const service::Caller& caller,
                                                                        const v1::DownloadMeshRequest& request, const Wake& wake);
 
     [[nodiscard]] Step next(v1::MeshChunk& chunk, grpc::Status& end) override;

@@ -19,9 +19,9 @@ namespace vsplit::rpc {
 
 /// What clients may use up.
 struct GrpcLimits {
-    std::size_t rpcs = 0;           ///< at a time; 0: no limit
-    int message_bytes = 16 << 20;   ///< of one message; larger meshes come by UploadMesh, in parts
-    int streams = 1000;             ///< rpcs of one connection at a time; more wait at the client
+    std::size_t rpcs = 0;          ///< at a time; 0: no limit
+    int message_bytes = 16 << 20;  ///< of one message; larger meshes come by UploadMesh, in parts
+    int streams = 1000;            ///< rpcs of one connection at a time; more wait at the client
 };
 
 /// How long connections live.
@@ -38,7 +38,7 @@ struct GrpcExtras {
     guard::Gatekeeper* gate = nullptr;       ///< who may make rpcs of the contract; null: everybody; must outlive the server
     GrpcLimits limits{};
     ConnectionLife life{};
-    guard::TlsFiles tls{};                   ///< none: plain
+    guard::TlsFiles tls{};  ///< none: plain
 };
 
 /// The gRPC front door: vsplit.v1.Meshing, health (of the server and of that service) and reflection.

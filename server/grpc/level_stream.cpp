@@ -104,7 +104,8 @@ bool LevelParts::next_plain(v1::ProgressiveEvent& event) {
     return true;
 }
 
-Expected<std::unique_ptr<MessageSource<v1::ProgressiveEvent>>> LevelSource::make(service::MeshingService& service, const service::Caller& caller,
+Expected<std::unique_ptr<MessageSource<v1::ProgressiveEvent>>> LevelSource::make(service::MeshingService& service,
+                                                                                 const service::Caller& caller,
                                                                                  const v1::SetResolutionRequest& request,
                                                                                  const Wake& wake) {
     const Expected<EncodingChoice> choice = wire::encoding_of(request);

@@ -29,7 +29,8 @@ void finish(grpc::ServerUnaryReactor* reactor, const RpcWatch& watch, const Mesh
     reactor->Finish(status);
 }
 
-Status create_session(service::MeshingService& service, const service::Caller& caller, const v1::CreateSessionRequest& request, v1::Session& response) {
+Status create_session(service::MeshingService& service, const service::Caller& caller, const v1::CreateSessionRequest& request,
+                      v1::Session& response) {
     const Expected<std::optional<MeshFormat>> format = wire::from_proto(request.format());
     if (!format) return format.error();
     const Expected<std::optional<RepairMode>> repair = wire::from_proto(request.repair());
@@ -52,7 +53,8 @@ Status list_sessions(service::MeshingService& service, const service::Caller& ca
     return Done{};
 }
 
-Status get_quality(service::MeshingService& service, const service::Caller& caller, const v1::GetQualityRequest& request, v1::Quality& response) {
+Status get_quality(service::MeshingService& service, const service::Caller& caller, const v1::GetQualityRequest& request,
+                   v1::Quality& response) {
     const std::uint32_t worst = request.worst() == 0 ? kDefaultWorst : request.worst();
     if (worst > kMostWorst) {
         return Error{Cause::kInvalidOption,
@@ -80,22 +82,27 @@ grpc::ServerUnaryReactor* MeshingRpcs::answer_now(Context* context, const RpcWat
 grpc::ServerUnaryReactor* MeshingRpcs::answer_later(Context* context, const RpcWatch& watch, Submit submit, Answer answer) {
     grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
     const bool taken = (service_.*submit)([reactor, watch, answer = std::move(answer)] { finish(reactor, watch, answer); });
-    if (!taken) finish(reactor, watch, [](const service::Caller& /*any*/) -> Status { return Error{Cause::kUnavailable, "the server is shutting down", ""}; });
+    if (!taken)
+        finish(reactor, watch, [](const service::Caller& /*any*/) -> Status {
+            return Error{Cause::kUnavailable, "the server is shutting down", ""};
+        });
     return reactor;
 }
 
 template <class Source, class Request>
 auto* MeshingRpcs::stream(Context& context, const char* method, const Request& request) {
     using Message = typename Source::Message;
-    return PullStream<Message>::open(RpcWatch(ledger_, context, method, request.session()), [&](const service::Caller& caller, const Wake& wake) {
-        return Source::make(service_, caller, request, wake);
-    });
+    return PullStream<Message>::open(
+        RpcWatch(ledger_, context, method, request.session()),
+        [&](const service::Caller& caller, const Wake& wake) { return Source::make(service_, caller, request, wake); });
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::CreateSession(Context* context, const v1::CreateSessionRequest* request,
                                                      v1::Session* response) {
     return answer_later(context, RpcWatch(ledger_, *context, "CreateSession", ""), &service::MeshingService::intake,
-                        [this, request, response](const service::Caller& caller) { return create_session(service_, caller, *request, *response); });
+                        [this, request, response](const service::Caller& caller) {
+                            return create_session(service_, caller, *request, *response);
+                        });
 }
 
 grpc::ServerReadReactor<v1::UploadMeshRequest>* MeshingRpcs::UploadMesh(Context* context, v1::Session* response) {
@@ -103,24 +110,28 @@ grpc::ServerReadReactor<v1::UploadMeshRequest>* MeshingRpcs::UploadMesh(Context*
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::GetSession(Context* context, const v1::GetSessionRequest* request, v1::Session* response) {
-    return answer_now(context, RpcWatch(ledger_, *context, "GetSession", request->session()), [this, request, response](const service::Caller& caller) -> Status {
-        const Expected<service::SessionSnapshot> session = service_.snapshot(request->session(), caller);
-        if (!session) return session.error();
-        *response = to_proto(*session);
-        return Done{};
-    });
+    return answer_now(context, RpcWatch(ledger_, *context, "GetSession", request->session()),
+                      [this, request, response](const service::Caller& caller) -> Status {
+                          const Expected<service::SessionSnapshot> session = service_.snapshot(request->session(), caller);
+                          if (!session) return session.error();
+                          *response = to_proto(*session);
+                          return Done{};
+                      });
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::ListSessions(Context* context, const v1::ListSessionsRequest* request,
                                                     v1::ListSessionsResponse* response) {
     return answer_later(context, RpcWatch(ledger_, *context, "ListSessions", ""), &service::MeshingService::errand,
-                        [this, request, response](const service::Caller& caller) { return list_sessions(service_, caller, *request, *response); });
+                        [this, request, response](const service::Caller& caller) {
+                            return list_sessions(service_, caller, *request, *response);
+                        });
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::DeleteSession(Context* context, const v1::DeleteSessionRequest* request,
                                                      google::protobuf::Empty* /*response*/) {
-    return answer_now(context, RpcWatch(ledger_, *context, "DeleteSession", request->session()),
-                      [this, request](const service::Caller& caller) { return service_.sessions().remove(request->session(), caller.owner); });
+    return answer_now(
+        context, RpcWatch(ledger_, *context, "DeleteSession", request->session()),
+        [this, request](const service::Caller& caller) { return service_.sessions().remove(request->session(), caller.owner); });
 }
 
 MeshingRpcs::EventReactor* MeshingRpcs::Improve(Context* context, const v1::ImproveRequest* request) {
@@ -140,8 +151,9 @@ grpc::ServerWriteReactor<v1::MeshChunk>* MeshingRpcs::DownloadMesh(Context* cont
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::GetQuality(Context* context, const v1::GetQualityRequest* request, v1::Quality* response) {
-    return answer_later(context, RpcWatch(ledger_, *context, "GetQuality", request->session()), &service::MeshingService::errand,
-                        [this, request, response](const service::Caller& caller) { return get_quality(service_, caller, *request, *response); });
+    return answer_later(
+        context, RpcWatch(ledger_, *context, "GetQuality", request->session()), &service::MeshingService::errand,
+        [this, request, response](const service::Caller& caller) { return get_quality(service_, caller, *request, *response); });
 }
 
 }  // namespace vsplit::rpc

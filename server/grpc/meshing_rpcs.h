@@ -36,7 +36,6 @@ public:
     using Answer = std::function<Status(const service::Caller& caller)>;
 
 private:
-
     UnaryReactor* answer_now(Context* context, const RpcWatch& watch, const Answer& answer);
     /// On a thread of the pool that `submit` stands for.
     using Submit = bool (service::MeshingService::*)(service::WorkerPool::Task);

@@ -22,8 +22,7 @@ guard::Access access_of(std::string_view method) {
     const google::protobuf::ServiceDescriptor* const contract =
         google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(v1::Meshing::service_full_name());
     const google::protobuf::MethodDescriptor* const rpc = contract->FindMethodByName(std::string(method));
-    const bool reads =
-        rpc != nullptr && rpc->options().idempotency_level() == google::protobuf::MethodOptions::NO_SIDE_EFFECTS;
+    const bool reads = rpc != nullptr && rpc->options().idempotency_level() == google::protobuf::MethodOptions::NO_SIDE_EFFECTS;
     return reads ? guard::Access::kRead : guard::Access::kWrite;
 }
 

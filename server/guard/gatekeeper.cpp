@@ -46,10 +46,10 @@ Expected<std::string> Gatekeeper::admit(const Visitor& visitor, Access needed) {
 Status Gatekeeper::take_turn(std::string_view kind, std::string_view client) {
     const unsigned wait = rates_.take(std::string(kind) + std::string(client), RateLimiter::Clock::now());
     if (wait == 0) return Done{};
-    return Error{Cause::kLimitExceeded,
-                 "more requests a second from " + std::string(kind) + std::string(client) +
-                     " than the server's limit max_request_rate",
-                 "", wait};
+    return Error{
+        Cause::kLimitExceeded,
+        "more requests a second from " + std::string(kind) + std::string(client) + " than the server's limit max_request_rate",
+        "", wait};
 }
 
 }  // namespace vsplit::guard

@@ -34,7 +34,9 @@ WatchedFiles::Marks WatchedFiles::look() const {
 }
 
 Expected<std::string> read_small_file(const std::string& name, std::size_t most) {
-    const auto failed = [&name](const std::string& why) { return Error{Cause::kFileAccess, "cannot read " + name + ": " + why, ""}; };
+    const auto failed = [&name](const std::string& why) {
+        return Error{Cause::kFileAccess, "cannot read " + name + ": " + why, ""};
+    };
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rbe"), &std::fclose);
     if (!file) return failed(std::generic_category().message(errno));
     std::string text;
@@ -45,8 +47,7 @@ Expected<std::string> read_small_file(const std::string& name, std::size_t most)
         if (got < part.size()) break;
     }
     if (std::ferror(file.get()) != 0) return failed(std::generic_category().message(errno));
-    if (text.size() > most)
-        return Error{Cause::kLimitExceeded, name + " is longer than " + std::to_string(most) + " bytes", ""};
+    if (text.size() > most) return Error{Cause::kLimitExceeded, name + " is longer than " + std::to_string(most) + " bytes", ""};
     return text;
 }
 

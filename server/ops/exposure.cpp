@@ -29,9 +29,9 @@ Status check_address(const ServerOptions& options, const char* option, const Lis
                                 : no_tls            ? "TLS (--tls-cert, --tls-key)"
                                                     : "tokens (--token-file)";
     return Error{Cause::kInvalidOption,
-                 "--" + std::string(option) + ' ' + address.text(address.port) +
-                     " is reached from other machines, which takes " + missing +
-                     "; accepted without is an address of this machine alone, e.g. 127.0.0.1:" + address.port + ", or --insecure",
+                 "--" + std::string(option) + ' ' + address.text(address.port) + " is reached from other machines, which takes " +
+                     missing + "; accepted without is an address of this machine alone, e.g. 127.0.0.1:" + address.port +
+                     ", or --insecure",
                  option};
 }
 

@@ -51,10 +51,13 @@ public:
     [[nodiscard]] static std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 private:
-    spdlog::pattern_formatter time_{std::string("{\"time\":\"") + kTime + "\",\"level\":\"%l\",", spdlog::pattern_time_type::utc, ""};
+    spdlog::pattern_formatter time_{std::string("{\"time\":\"") + kTime + "\",\"level\":\"%l\",", spdlog::pattern_time_type::utc,
+                                    ""};
 };
 
-void write(Level level, const Json& json) { spdlog::default_logger_raw()->log(level, spdlog::string_view_t(JsonFormatter::dump(json))); }
+void write(Level level, const Json& json) {
+    spdlog::default_logger_raw()->log(level, spdlog::string_view_t(JsonFormatter::dump(json)));
+}
 
 double milliseconds(std::chrono::steady_clock::duration time) {
     constexpr double kTenths = 10;
@@ -118,8 +121,12 @@ void log_http(const rest::HttpRecord& record) {
     const double ms = milliseconds(record.elapsed);
     const std::string target = service::quoted(record.target);
     if (options().json) {
-        Json json{{"event", "http"},       {"method", service::quoted(record.method)}, {"target", target},
-                  {"status", record.status}, {"ms", ms},                               {"bytes_in", record.bytes_in},
+        Json json{{"event", "http"},
+                  {"method", service::quoted(record.method)},
+                  {"target", target},
+                  {"status", record.status},
+                  {"ms", ms},
+                  {"bytes_in", record.bytes_in},
                   {"bytes_out", record.bytes_out}};
         add_origin(json, record.mark.id, record.mark.trace, record.mark.parent_span, record.mark.peer);
         return write(Level::info, json);
@@ -133,14 +140,14 @@ void log_job(const service::JobRecord& record) {
     const std::string outcome(record.outcome ? cause_name(*record.outcome) : "OK");
     if (options().json) {
         return write(Level::warn, Json{{"event", "slow_job"},
-                                                     {"method", std::string(record.method)},
-                                                     {"code", outcome},
-                                                     {"seconds", record.seconds},
-                                                     {"waited", record.waited},
-                                                     {"faces_in", record.faces_in},
-                                                     {"faces_out", record.faces_out},
-                                                     {"session", record.session},
-                                                     {"request", record.request_id}});
+                                       {"method", std::string(record.method)},
+                                       {"code", outcome},
+                                       {"seconds", record.seconds},
+                                       {"waited", record.waited},
+                                       {"faces_in", record.faces_in},
+                                       {"faces_out", record.faces_out},
+                                       {"session", record.session},
+                                       {"request", record.request_id}});
     }
     spdlog::warn("slow job: {} {} {:.1f} s after {:.1f} s of waiting, {} faces in, {} out, session {} request {}", record.method,
                  outcome, record.seconds, record.waited, record.faces_in, record.faces_out, record.session, record.request_id);

@@ -198,7 +198,8 @@ int run(int argc, const char* const* argv) {
         if (!at) return fail(at.error().message);
         http = *at;
     }
-    if (Status safe = options.check ? Status(Done{}) : check_exposure(options, *address, http); !safe) return fail(safe.error().message);
+    if (Status safe = options.check ? Status(Done{}) : check_exposure(options, *address, http); !safe)
+        return fail(safe.error().message);
     if (options.check) {
         const Status serves = check_server(*address, options.tls);
         return serves ? 0 : fail(serves.error().message);

@@ -48,7 +48,8 @@ Metrics::Metrics()
       http_out_(counters(registry_, "vsplit_http_bytes_total", "Bytes of HTTP bodies").Add({{"direction", "out"}})),
       jobs_(counters(registry_, "vsplit_jobs_total", "Methods that a worker was at, by outcome")),
       job_seconds_(prometheus::BuildHistogram().Name("vsplit_job_seconds").Help("How long methods ran").Register(registry_)),
-      job_waited_(prometheus::BuildHistogram().Name("vsplit_job_wait_seconds").Help("How long methods waited").Register(registry_)),
+      job_waited_(
+          prometheus::BuildHistogram().Name("vsplit_job_wait_seconds").Help("How long methods waited").Register(registry_)),
       job_faces_(counters(registry_, "vsplit_job_faces_total", "Faces that methods were given, of those that succeeded")),
       sessions_(gauge(registry_, "vsplit_sessions", "Sessions that are held")),
       methods_running_(gauge(registry_, "vsplit_jobs_running", "Methods that a worker is at")),

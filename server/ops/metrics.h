@@ -21,8 +21,8 @@ namespace vsplit::ops {
 ///
 /// vsplit_rpc_seconds (histogram by method) and vsplit_rpcs_total (by method and code) count an rpc once, whichever door it came
 /// by; vsplit_message_bytes_total (by direction) its messages. vsplit_http_requests_total (by status) and vsplit_http_bytes_total
-/// (bodies, by direction) are HTTP's own. vsplit_jobs_total (by method and outcome), vsplit_job_seconds, vsplit_job_wait_seconds and
-/// vsplit_job_faces_total (by method) are of methods that a worker was at. process_* are those that Prometheus' clients have.
+/// (bodies, by direction) are HTTP's own. vsplit_jobs_total (by method and outcome), vsplit_job_seconds, vsplit_job_wait_seconds
+/// and vsplit_job_faces_total (by method) are of methods that a worker was at. process_* are those that Prometheus' clients have.
 class Metrics final : public rpc::RpcMeter {
 public:
     Metrics();

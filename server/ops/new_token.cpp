@@ -10,9 +10,10 @@ Expected<NewToken> make_token(std::string_view request) {
     const std::string_view name = request.substr(0, colon);
     const std::string_view access = colon == std::string_view::npos ? std::string_view() : request.substr(colon + 1);
     if (!guard::is_token_name(name) || (access != "read-only" && access != "read-write")) {
-        return Error{Cause::kInvalidOption,
-                     "--new-token takes NAME:read-only or NAME:read-write; a name is 1 to 64 of letters, digits, '.', '_' and '-'",
-                     "new-token"};
+        return Error{
+            Cause::kInvalidOption,
+            "--new-token takes NAME:read-only or NAME:read-write; a name is 1 to 64 of letters, digits, '.', '_' and '-'",
+            "new-token"};
     }
     const Expected<std::string> first = service::random_id();
     const Expected<std::string> second = service::random_id();

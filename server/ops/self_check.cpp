@@ -64,8 +64,9 @@ Status check_server(const ListenAddress& address, const guard::TlsFiles& tls) {
     bool ok = false;
     queue.Next(&tag, &ok);
     if (status.ok() && text_of(reply) == kServing) return Done{};
-    return Error{Cause::kUnavailable,
-                 "the server at " + at.text(at.port) + " does not serve: " + (status.ok() ? "NOT_SERVING" : status.error_message()), ""};
+    return Error{
+        Cause::kUnavailable,
+        "the server at " + at.text(at.port) + " does not serve: " + (status.ok() ? "NOT_SERVING" : status.error_message()), ""};
 }
 
 }  // namespace vsplit::ops

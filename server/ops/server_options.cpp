@@ -34,8 +34,9 @@ public:
         add_work();
         add_limits();
         add_life();
-        app_.footer("What the command line leaves out is taken from the environment, VSPLITD_LISTEN for --listen and so on,\n"
-                    "and what that leaves out from the file of --config.");
+        app_.footer(
+            "What the command line leaves out is taken from the environment, VSPLITD_LISTEN for --listen and so on,\n"
+            "and what that leaves out from the file of --config.");
     }
 
     CLI::App& app() { return app_; }
@@ -52,15 +53,17 @@ public:
 private:
     void add_doors() {
         app_.add_option("--listen", options_.listen, "HOST:PORT to serve gRPC at; port 0 takes a free one");
-        http_ = app_.add_option("--http", options_.http,
-                                "HOST:PORT to serve REST at, or off; a free port where --listen takes one");
-        app_.add_option("--cors-origin", options_.rest.cors_origins,
-                        "Origin of web pages that may use REST, e.g. https://example.org, or *; several are allowed. Default: none")
+        http_ =
+            app_.add_option("--http", options_.http, "HOST:PORT to serve REST at, or off; a free port where --listen takes one");
+        app_.add_option(
+                "--cors-origin", options_.rest.cors_origins,
+                "Origin of web pages that may use REST, e.g. https://example.org, or *; several are allowed. Default: none")
             ->delimiter(',')
             ->default_str("")
             ->option_text("ORIGIN ...");
         app_.add_flag("--print-openapi", options_.print_openapi, "Print the OpenAPI document and end")->configurable(false);
-        app_.add_flag("--check", options_.check, "Ask the server at --listen whether it serves; ends with 0 if so")->configurable(false);
+        app_.add_flag("--check", options_.check, "Ask the server at --listen whether it serves; ends with 0 if so")
+            ->configurable(false);
         app_.add_flag("--print-config", print_config_, "Print what holds, as a file for --config, and end")->configurable(false);
     }
 
@@ -125,7 +128,8 @@ private:
     }
 
     void add_life() {
-        app_.add_option("--drain", options_.drain, "Seconds that what runs has to end after SIGTERM")->check(CLI::Range(0U, kDay));
+        app_.add_option("--drain", options_.drain, "Seconds that what runs has to end after SIGTERM")
+            ->check(CLI::Range(0U, kDay));
         app_.add_option("--keepalive", options_.keepalive,
                         "Seconds of silence before a gRPC client is asked for a sign of life, 20 s to answer; 0: never")
             ->check(CLI::Range(0U, kDay));
@@ -143,9 +147,8 @@ private:
 
 std::string variable_of(const std::string& option) {
     std::string name = "VSPLITD_" + option;
-    std::transform(name.begin(), name.end(), name.begin(), [](char c) {
-        return c == '-' ? '_' : static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
-    });
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](char c) { return c == '-' ? '_' : static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c); });
     return name;
 }
 

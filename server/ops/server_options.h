@@ -22,20 +22,20 @@ struct ServerOptions {
     bool print_openapi = false;
     bool check = false;  ///< asks the server at `listen` whether it serves, and ends
     service::ServiceOptions service;
-    std::string log_level = "info";  ///< debug, info, warning, error, off
+    std::string log_level = "info";   ///< debug, info, warning, error, off
     std::string log_format = "text";  ///< text, json
     double slow_job = 60;             ///< seconds; a method that takes longer is in the log as a warning; 0: none
     guard::TlsFiles tls;
-    std::string token_file;       ///< empty: calls need no token
-    std::string new_token;        ///< NAME:ACCESS; makes a token and ends
-    bool insecure = false;        ///< serves others than this machine without TLS or tokens
-    double max_request_rate = 0;  ///< of a client, a second; 0: no limit
+    std::string token_file;                      ///< empty: calls need no token
+    std::string new_token;                       ///< NAME:ACCESS; makes a token and ends
+    bool insecure = false;                       ///< serves others than this machine without TLS or tokens
+    double max_request_rate = 0;                 ///< of a client, a second; 0: no limit
     std::uint32_t max_rpcs = 10'000;             ///< at a time
     std::uint32_t max_message_bytes = 16 << 20;  ///< of one gRPC message
     std::uint32_t max_streams = 1000;            ///< rpcs of one gRPC connection at a time
     std::uint32_t drain = 5;                     ///< seconds that what runs has after SIGTERM
-    std::uint32_t keepalive = 60;                ///< seconds of silence on a gRPC connection before it is asked for a sign of life
-    std::uint32_t max_connection_age = 0;        ///< seconds after which a gRPC connection is to be opened anew; 0: never
+    std::uint32_t keepalive = 60;          ///< seconds of silence on a gRPC connection before it is asked for a sign of life
+    std::uint32_t max_connection_age = 0;  ///< seconds after which a gRPC connection is to be opened anew; 0: never
 };
 
 /// A variable of the environment, where there is one.

@@ -152,7 +152,8 @@ Awaitable<bool> Connection::serve_one(bool last) {
     co_await exchange.leave_watch().stop();
     if (observer_) {
         observer_({std::string(exchange.method()), std::string(exchange.target()), exchange.response().status(),
-                   exchange.body().received(), exchange.response().sent(), std::chrono::steady_clock::now() - start, exchange.mark()});
+                   exchange.body().received(), exchange.response().sent(), std::chrono::steady_clock::now() - start,
+                   exchange.mark()});
     }
     const bool more = exchange.response().keeps_alive() && exchange.body().at_end();
     if (!exchange.body().at_end()) co_await linger();

@@ -18,8 +18,8 @@ namespace vsplit::rest {
 /// One request and its answer, which a handler writes. For one coroutine on the connection's strand.
 class Exchange {
 public:
-    Exchange(Stream& stream, beast::flat_buffer& buffer, RequestParser& parser, ResponseManner manner,
-             const RestLimits& limits, RequestMark mark = {});
+    Exchange(Stream& stream, beast::flat_buffer& buffer, RequestParser& parser, ResponseManner manner, const RestLimits& limits,
+             RequestMark mark = {});
 
     [[nodiscard]] const http::request<http::buffer_body>& request() const { return request_; }
     [[nodiscard]] std::string_view method() const;

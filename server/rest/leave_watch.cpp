@@ -41,7 +41,8 @@ Awaitable<void> LeaveWatch::stop() {
     co_await state->ended->wait();
 }
 
-// What TLS has read already does not show at the socket, so that a read waits here; `stop` cancels it, and nothing is lost by that.
+// What TLS has read already does not show at the socket, so that a read waits here; `stop` cancels it, and nothing is lost by
+// that.
 Awaitable<std::size_t> LeaveWatch::read_secure(std::shared_ptr<State> state, ErrorCode* failed) {
     state->stream.expires_never();
     const auto room = state->buffer.prepare(kPart);

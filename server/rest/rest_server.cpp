@@ -90,7 +90,8 @@ private:
 
     void welcome(tcp::socket socket) {
         const auto executor = socket.get_executor();
-        const auto connection = std::make_shared<Connection>(std::move(socket), tls_ ? tls_->current() : nullptr, *gateway_, observer_);
+        const auto connection =
+            std::make_shared<Connection>(std::move(socket), tls_ ? tls_->current() : nullptr, *gateway_, observer_);
         bool room = false;
         {
             const std::lock_guard lock(mutex_);

@@ -17,7 +17,8 @@ class TlsContexts {
 public:
     /// \pre files.cert and files.key are named. \return INVALID_OPTION when a file cannot be used, or key and certificate do not
     /// belong together.
-    [[nodiscard]] static Expected<std::shared_ptr<TlsContexts>> open(const guard::TlsFiles& files, guard::ReloadObserver observer);
+    [[nodiscard]] static Expected<std::shared_ptr<TlsContexts>> open(const guard::TlsFiles& files,
+                                                                     guard::ReloadObserver observer);
 
     [[nodiscard]] std::shared_ptr<net::ssl::context> current();
 

@@ -52,7 +52,8 @@ public:
                                                            const Caller& caller = {});
 
     /// \return NOT_FOUND, what Upload::begin returns.
-    [[nodiscard]] Expected<Upload> begin_upload(std::string_view session, const UploadSettings& settings, const Caller& caller = {});
+    [[nodiscard]] Expected<Upload> begin_upload(std::string_view session, const UploadSettings& settings,
+                                                const Caller& caller = {});
 
     /// Queues a method. `events` hear of it from now on, perhaps before this returns.
     /// \return NOT_FOUND, NOT_READY, LIMIT_EXCEEDED, what `check_options` and `require_manifold` return; no event then.

@@ -50,10 +50,11 @@ std::size_t SessionStore::waiting_jobs() const {
 Status SessionStore::require_room_locked(std::string_view owner) const {
     const auto held = by_owner_.find(owner);
     if (!owner.empty() && held != by_owner_.end() && held->second >= options_.limits.sessions_by_client) {
-        return Error{Cause::kLimitExceeded,
-                     "there are " + std::to_string(held->second) +
-                         " sessions of this token, the server's limit max_sessions_by_client; delete one, or wait until one expires",
-                     "", kRetryAfter};
+        return Error{
+            Cause::kLimitExceeded,
+            "there are " + std::to_string(held->second) +
+                " sessions of this token, the server's limit max_sessions_by_client; delete one, or wait until one expires",
+            "", kRetryAfter};
     }
     if (sessions_.size() < options_.limits.sessions) return Done{};
     return Error{Cause::kLimitExceeded,

@@ -32,7 +32,8 @@ public:
     [[nodiscard]] Status require_room(std::string_view owner = {});
 
     /// \return LIMIT_EXCEEDED. `source` may be null.
-    [[nodiscard]] Expected<std::shared_ptr<Session>> create(std::shared_ptr<const SourceMesh> source, const std::string& owner = {});
+    [[nodiscard]] Expected<std::shared_ptr<Session>> create(std::shared_ptr<const SourceMesh> source,
+                                                            const std::string& owner = {});
 
     /// A use of the session: it lives its full time again. \return NOT_FOUND, also for a session of another owner.
     [[nodiscard]] Expected<std::shared_ptr<Session>> find(std::string_view id, std::string_view owner = {});
@@ -42,7 +43,8 @@ public:
 
     /// `page_size` 0 means kDefaultPage. Looking at the list is no use of the sessions in it.
     /// \return INVALID_OPTION for a token that is none of ours. O(sessions).
-    [[nodiscard]] Expected<SessionPage> list(std::uint32_t page_size, std::string_view page_token, std::string_view owner = {}) const;
+    [[nodiscard]] Expected<SessionPage> list(std::uint32_t page_size, std::string_view page_token,
+                                             std::string_view owner = {}) const;
 
     [[nodiscard]] std::size_t count() const;
 

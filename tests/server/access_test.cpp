@@ -1,5 +1,5 @@
-// Every rpc and every route, tried without a token, with a wrong one, with a read-only one, and with another's. What there is comes
-// from the descriptors, so that an rpc that is added is tried by itself.
+// Every rpc and every route, tried without a token, with a wrong one, with a read-only one, and with another's. What there is
+// comes from the descriptors, so that an rpc that is added is tried by itself.
 
 #include <gmock/gmock.h>
 #include <google/protobuf/descriptor.h>
@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "guard/gatekeeper.h"
-
 #include "rest/pages.h"
 #include "rest/router.h"
 #include "rest_client.h"
@@ -96,7 +95,8 @@ protected:
     // One message there, whatever the rpc's shape, and all replies.
     Answer ask(const pb::MethodDescriptor& rpc, const std::string& token) {
         const std::unique_ptr<pb::Message> request(factory_.GetPrototype(rpc.input_type())->New());
-        if (names_session(rpc)) request->GetReflection()->SetString(request.get(), rpc.input_type()->FindFieldByName("session"), session_);
+        if (names_session(rpc))
+            request->GetReflection()->SetString(request.get(), rpc.input_type()->FindFieldByName("session"), session_);
         const std::string bytes = request->SerializeAsString();
         const grpc::Slice slice(bytes);
         const auto context = as(token);
@@ -187,7 +187,8 @@ TEST_F(AccessTest, NoRpcThatWritesTakesAReadOnlyToken) {
             }
         }
     }
-    EXPECT_EQ(writing, 2U * 5U) << "CreateSession, UploadMesh, DeleteSession, Improve, Control; is a new rpc marked as it should be?";
+    EXPECT_EQ(writing, 2U * 5U)
+        << "CreateSession, UploadMesh, DeleteSession, Improve, Control; is a new rpc marked as it should be?";
     expect_whole();
 }
 
@@ -234,7 +235,8 @@ TEST_F(AccessTest, NoRouteTakesWhatItsRpcDoesNot) {
     ASSERT_GE(router->routes().size(), 10U);
     for (const rest::Route& route : router->routes()) {
         const std::string name = route.method + ' ' + route.path.openapi_path();
-        for (const std::string& token : {std::string(), std::string("Bearer a-guess"), std::string("Basic YTpi"), std::string(kAnn)}) {
+        for (const std::string& token :
+             {std::string(), std::string("Bearer a-guess"), std::string("Basic YTpi"), std::string(kAnn)}) {
             const HttpReply reply = ask(route, token);
             EXPECT_EQ(reply.status, 401U) << name << ' ' << reply.body;
             EXPECT_EQ(reply.fields.count("WWW-Authenticate"), 1U) << name;
@@ -263,7 +265,8 @@ TEST_F(AccessTest, NoPageButTheOpenOnesTakesARequestWithoutAToken) {
     for (const auto& [path, page] : pages) {
         const bool open = kOpenPages.contains(path);
         EXPECT_EQ(vsplit::test::ask(doors_.port(), "GET", path).status, open ? 200U : 401U) << path;
-        EXPECT_EQ(vsplit::test::ask(doors_.port(), "GET", path, {{"Authorization", bearer("a-guess")}}).status, open ? 200U : 401U)
+        EXPECT_EQ(vsplit::test::ask(doors_.port(), "GET", path, {{"Authorization", bearer("a-guess")}}).status,
+                  open ? 200U : 401U)
             << path;
         EXPECT_EQ(vsplit::test::ask(doors_.port(), "GET", path, {{"Authorization", bearer(kBobReads)}}).status, 200U) << path;
     }

@@ -25,7 +25,8 @@ protected:
     }
 
     std::unique_ptr<TokenBook> open() {
-        auto book = TokenBook::open(file_, [this](const std::string& /*file*/, const Status& read) { reloads_ += read ? "+" : "-"; });
+        auto book =
+            TokenBook::open(file_, [this](const std::string& /*file*/, const Status& read) { reloads_ += read ? "+" : "-"; });
         EXPECT_TRUE(book);
         return *std::move(book);
     }

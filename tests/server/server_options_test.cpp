@@ -89,8 +89,9 @@ TEST_F(ServerOptionsTest, RefusesUnknownKeysAndWrongValuesWhereverTheyCome) {
 }
 
 TEST_F(ServerOptionsTest, PrintsWhatHoldsAsAFileThatSaysTheSame) {
-    const std::vector<std::string> asked{"--listen", "127.0.0.1:7", "--max-faces", "77",        "--cors-origin",
-                                         "https://a.example", "--log-level", "warning", "--print-config"};
+    const std::vector<std::string> asked{"--listen",    "127.0.0.1:7",   "--max-faces",
+                                         "77",          "--cors-origin", "https://a.example",
+                                         "--log-level", "warning",       "--print-config"};
     const auto parsed = parse(asked, {{"VSPLITD_DRAIN", "9"}});
     ASSERT_TRUE(std::holds_alternative<int>(parsed));
     EXPECT_EQ(std::get<int>(parsed), 0);
@@ -159,7 +160,8 @@ TEST(NewTokenTest, MakesAnotherEachTimeWithItsLine) {
     ASSERT_TRUE(read);
     EXPECT_EQ(read->front().digest, guard::digest_of(first->token));
     EXPECT_EQ(read->front().access, guard::Access::kWrite);
-    for (const char* wrong : {"", "ann", "ann:", ":read-only", "ann:write", "a b:read-only"}) EXPECT_FALSE(make_token(wrong)) << wrong;
+    for (const char* wrong : {"", "ann", "ann:", ":read-only", "ann:write", "a b:read-only"})
+        EXPECT_FALSE(make_token(wrong)) << wrong;
 }
 
 }  // namespace

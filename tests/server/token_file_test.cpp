@@ -15,9 +15,8 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(TokenFileTest, ReadsNamesAccessAndHashes) {
-    const auto tokens = parse_token_file("# who\n\nann read-write " + kAbc + "  # her laptop\r\n\tbob.2 read-only " +
-                                             std::string(64, 'F'),
-                                         "tokens");
+    const auto tokens = parse_token_file(
+        "# who\n\nann read-write " + kAbc + "  # her laptop\r\n\tbob.2 read-only " + std::string(64, 'F'), "tokens");
     ASSERT_TRUE(tokens);
     ASSERT_EQ(tokens->size(), 2U);
     EXPECT_EQ((*tokens)[0].name, "ann");
@@ -39,9 +38,10 @@ TEST(TokenFileTest, ReadsWhatItWrites) {
 
 TEST(TokenFileTest, SaysWhichLineIsWrongAndNeverWhatIsInIt) {
     const std::string secret = "vst_0123456789abcdef";
-    for (const std::string& line : {secret, "ann read-write " + secret, "ann " + secret + " " + kAbc,
-                                    "ann read-write " + kAbc.substr(1), "ann read-write " + kAbc + " " + secret,
-                                    "an/n read-write " + kAbc, "ann write " + kAbc, std::string(65, 'n') + " read-only " + kAbc}) {
+    for (const std::string& line :
+         {secret, "ann read-write " + secret, "ann " + secret + " " + kAbc, "ann read-write " + kAbc.substr(1),
+          "ann read-write " + kAbc + " " + secret, "an/n read-write " + kAbc, "ann write " + kAbc,
+          std::string(65, 'n') + " read-only " + kAbc}) {
         const std::string message = refusal("\nok read-only " + std::string(64, '0') + "\n" + line + "\n");
         EXPECT_NE(message.find("tokens, line 3: "), std::string::npos) << line << ": " << message;
         EXPECT_EQ(message.find(secret), std::string::npos) << message;

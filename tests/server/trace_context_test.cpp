@@ -42,7 +42,8 @@ TEST(TraceContextTest, TakesNothingThatIsBroken) {
 TEST(TraceContextTest, KnowsARequestId) {
     EXPECT_TRUE(is_request_id("job-7_A.z"));
     EXPECT_TRUE(is_request_id(std::string(64, 'a')));
-    for (const std::string& wrong : {std::string(), std::string(65, 'a'), std::string("a b"), std::string("a\nb"), std::string("\"")})
+    for (const std::string& wrong :
+         {std::string(), std::string(65, 'a'), std::string("a b"), std::string("a\nb"), std::string("\"")})
         EXPECT_FALSE(is_request_id(wrong)) << wrong;
 }
 

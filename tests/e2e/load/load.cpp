@@ -1,8 +1,9 @@
-// load HOST:PORT MESH CLIENTS SECONDS [ROUNDS PID]: many clients at once that upload, improve, control, read, download and delete.
+// load HOST:PORT MESH CLIENTS SECONDS [ROUNDS PID]: many clients at once that upload, improve, control, read, download and
+// delete.
 //
-// Prints what the calls took and how they ended, and fails where one ended otherwise than well or by a limit that is named, or where
-// 99 of 100 GetSessions took longer than 50 ms. With ROUNDS and the server's PID also its memory after each round, and fails where
-// that grows.
+// Prints what the calls took and how they ended, and fails where one ended otherwise than well or by a limit that is named, or
+// where 99 of 100 GetSessions took longer than 50 ms. With ROUNDS and the server's PID also its memory after each round, and
+// fails where that grows.
 
 #include <algorithm>
 #include <atomic>
@@ -30,10 +31,10 @@ using Clock = std::chrono::steady_clock;
 // After a refusal; Retry-After asks for more.
 constexpr std::chrono::milliseconds kPause(200);
 
-constexpr double kSize = 20;             // subdivision of the bracket, whose box is 228 across: a second of work
-constexpr double kMostP99 = 50;          // ms, of GetSession
-constexpr double kMostGrowth = 1.15;     // of memory, from the second round to the last
-constexpr double kMostGrowthMb = 64;     // or this
+constexpr double kSize = 20;          // subdivision of the bracket, whose box is 228 across: a second of work
+constexpr double kMostP99 = 50;       // ms, of GetSession
+constexpr double kMostGrowth = 1.15;  // of memory, from the second round to the last
+constexpr double kMostGrowthMb = 64;  // or this
 
 // What happened, by name of the call. Thread-safe.
 class Tally {
@@ -55,8 +56,11 @@ public:
         bool well = failures_.empty();
         for (auto& [call, took] : took_) {
             std::sort(took.begin(), took.end());
-            const auto at = [&took = took](double part) { return took[static_cast<std::size_t>(part * static_cast<double>(took.size() - 1))]; };
-            std::printf("%-14s %8zu %8zu %9.1f %9.1f %9.1f\n", call.c_str(), took.size(), refused_[call], at(0.5), at(0.99), took.back());
+            const auto at = [&took = took](double part) {
+                return took[static_cast<std::size_t>(part * static_cast<double>(took.size() - 1))];
+            };
+            std::printf("%-14s %8zu %8zu %9.1f %9.1f %9.1f\n", call.c_str(), took.size(), refused_[call], at(0.5), at(0.99),
+                        took.back());
             if (call == "GetSession" && at(0.99) > kMostP99) well = false;
         }
         for (const std::string& failure : failures_) std::printf("failed: %s\n", failure.c_str());
@@ -74,7 +78,11 @@ private:
 class Worker {
 public:
     Worker(const std::string& target, std::span<const std::byte> mesh, Tally& tally, unsigned number)
-        : client_(client::MeshingClient::connect(target)), mesh_(mesh), tally_(tally), number_(number), file_("load_" + std::to_string(number) + ".stl") {}
+        : client_(client::MeshingClient::connect(target)),
+          mesh_(mesh),
+          tally_(tally),
+          number_(number),
+          file_("load_" + std::to_string(number) + ".stl") {}
     ~Worker() { std::remove(file_.c_str()); }
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
@@ -108,7 +116,8 @@ public:
 
 private:
     void look(const std::string& session, int times) {
-        for (int i = 0; i < times; ++i) static_cast<void>(timed("GetSession", [&] { return client_->get_session(session, call_); }));
+        for (int i = 0; i < times; ++i)
+            static_cast<void>(timed("GetSession", [&] { return client_->get_session(session, call_); }));
     }
 
     Expected<v1::Representation> improve(const std::string& session) {
