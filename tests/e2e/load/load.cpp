@@ -2,7 +2,7 @@
 // delete.
 //
 // Prints what the calls took and how they ended, and fails where one ended otherwise than well or by a limit that is named, or
-// where 99 of 100 GetSessions took longer than 50 ms. With ROUNDS and the server's PID also its memory after each round, and
+// where 99 of 100 GetSessions took longer than 50 ms, and what the machine alone makes a thread wait. With ROUNDS and the server's PID also its memory after each round, and
 // fails where that grows.
 
 #include <algorithm>
@@ -51,7 +51,7 @@ public:
     }
 
     // Whether all is well.
-    bool report() {
+    bool report(double delay) {
         std::printf("%-14s %8s %8s %9s %9s %9s ms\n", "call", "well", "refused", "half", "99 %", "longest");
         bool well = failures_.empty();
         for (auto& [call, took] : took_) {
@@ -61,7 +61,7 @@ public:
             };
             std::printf("%-14s %8zu %8zu %9.1f %9.1f %9.1f\n", call.c_str(), took.size(), refused_[call], at(0.5), at(0.99),
                         took.back());
-            if (call == "GetSession" && at(0.99) > kMostP99) well = false;
+            if (call == "GetSession" && at(0.99) > kMostP99 + delay) well = false;
         }
         for (const std::string& failure : failures_) std::printf("failed: %s\n", failure.c_str());
         return well && !took_.empty();
@@ -175,15 +175,32 @@ double resident_mb(const std::string& pid) {
     return 0;
 }
 
+// How long after its time a thread runs that sleeps for 1 ms, until `stop`: on a machine that others use too, no server is faster. ms,
+// of 99 in 100.
+double machine_delay(const std::stop_token& stop) {
+    std::vector<double> late;
+    while (!stop.stop_requested()) {
+        const auto start = Clock::now();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        late.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count() - 1);
+    }
+    std::sort(late.begin(), late.end());
+    return late.empty() ? 0 : late[late.size() * 99 / 100];
+}
+
 bool one_round(const std::string& target, std::span<const std::byte> mesh, unsigned clients, double seconds) {
     Tally tally;
     std::stop_source stop;
     std::vector<std::thread> threads;
     for (unsigned i = 0; i < clients; ++i) threads.emplace_back([&, i] { Worker(target, mesh, tally, i).run(stop.get_token()); });
+    double delay = 0;
+    std::thread watch([&] { delay = machine_delay(stop.get_token()); });
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
     stop.request_stop();
     for (std::thread& thread : threads) thread.join();
-    return tally.report();
+    watch.join();
+    std::printf("the machine lets 99 of 100 threads wait up to %.1f ms\n", delay);
+    return tally.report(delay);
 }
 
 bool is_flat(const std::vector<double>& memory) {
