@@ -37,7 +37,7 @@ GrpcServer::GrpcServer(service::MeshingService& service, const GrpcExtras& extra
 GrpcServer::~GrpcServer() { shutdown(std::chrono::milliseconds(0)); }
 
 Expected<std::unique_ptr<GrpcServer>> GrpcServer::start(const std::string& address, service::MeshingService& service,
-                                                        GrpcExtras extras) {
+                                                        const GrpcExtras& extras) {
     std::unique_ptr<GrpcServer> server(new GrpcServer(service, extras));
     if (Status listening = server->listen(address, extras); !listening) return listening.error();
     return server;

@@ -47,7 +47,7 @@ public:
     /// Serves at `address` ("host:port", port 0 for a free one) from now on. `service` must outlive the server.
     /// \return UNAVAILABLE when it cannot listen there.
     [[nodiscard]] static Expected<std::unique_ptr<GrpcServer>> start(const std::string& address, service::MeshingService& service,
-                                                                     GrpcExtras extras);
+                                                                     const GrpcExtras& extras);
     ~GrpcServer();
     GrpcServer(const GrpcServer&) = delete;
     GrpcServer& operator=(const GrpcServer&) = delete;

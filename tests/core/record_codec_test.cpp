@@ -88,7 +88,7 @@ TEST(RecordCodecTest, RefusesDamageByTheBlocksFirstRecordAndChangesNothing) {
         const RecordBlock first = ends.encode(30), second = ends.encode(ends.mrr.records.size());
         ASSERT_TRUE(ends.codec.decode(first, mesh, &records));
         const TriangleMesh before = mesh.mesh();
-        const auto refused = [&](RecordBlock block, const std::string& what) {
+        const auto refused = [&](const RecordBlock& block, const std::string& what) {
             const Status done = ends.codec.decode(block, mesh, &records);
             ASSERT_FALSE(done) << what;
             EXPECT_EQ(done.error().cause, Cause::kCorrupt) << what;

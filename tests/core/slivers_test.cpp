@@ -207,6 +207,27 @@ TriangleMesh sphere_with_needles(double nearness) {
     return mesh;
 }
 
+TEST(SliversTest, ALongTubeForcesFacesAlongIt) {
+    // Sides so many that none is a crease, each as long as the tube: forced where the tube is thin for that, and only there.
+    for (const double length : {5.0, 20.0, 400.0}) {
+        TriangleMesh tube = open_cylinder(24, 1);
+        for (Vec3& p : tube.positions) p.z() *= length / 2;
+        const double girth = 48 * std::sin(std::numbers::pi / 24);
+        const std::vector<Slivers> found = explain_slivers(tube, creases_of(tube), {});
+        const std::uint32_t thin = count_of(found, SliverCause::kNarrowPart);
+        if (girth >= 2 * height_for_stretch(kStretchFloor) * length) {
+            EXPECT_EQ(thin, 0U);
+            continue;
+        }
+        EXPECT_GT(thin, 0U);
+        for (const Slivers& s : found) {
+            if (s.cause != SliverCause::kNarrowPart) continue;
+            EXPECT_NEAR(s.least, girth, 1e-4);  // the longest edge is a diagonal
+            EXPECT_NEAR(s.most, girth, 1e-4);
+        }
+    }
+}
+
 TEST(SliversTest, ABoundOnTheDeviationThatEveryMendBreaksIsTheCause) {
     const TriangleMesh mesh = sphere_with_needles(0.05);
     const auto found = [&](double max_deviation) {

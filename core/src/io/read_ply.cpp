@@ -121,9 +121,7 @@ private:
         const std::size_t region = find_region(element);
         const std::size_t last = element.properties.size() - 1;
         return read_rows(element, [&](const PlyProperty& property, std::size_t number) -> Status {
-            const Status read = number == region     ? read_region(property)
-                                : number == *corners ? read_polygon(property)
-                                                     : skip(property);
+            Status read = number == region ? read_region(property) : number == *corners ? read_polygon(property) : skip(property);
             if (number == last && region <= last) regions_.resize(builder_.face_count(), region_);
             return read;
         });

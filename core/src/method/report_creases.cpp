@@ -9,6 +9,10 @@ namespace {
 /// Of feature_angle: what a source's crease may have been flattened to and still be one in the result.
 constexpr double kBendShare = 0.5;
 
+/// Of feature_angle: the method goes on keeping a crease that it has flattened, down to nothing. Edges that bend by less than
+/// this are within the noise of what lies beside one.
+constexpr double kHeldBendShare = 0.05;
+
 }  // namespace
 
 Status report_creases(MethodResult& result, const TriangleMesh& source, const MethodRun& run, const ExecutionContext& context) {
@@ -24,7 +28,8 @@ Status report_creases(MethodResult& result, const TriangleMesh& source, const Me
     }
     if (result.quality.faces_below_02 == 0) return Done{};
     const double distance = run.extended ? run.max_deviation : run.prepare.tolerance;
-    result.slivers = explain_slivers(mesh, creases_kept(mesh, source, creases, angle, distance),
+    const double held = kHeldBendShare * run.prepare.features.angle;
+    result.slivers = explain_slivers(mesh, creases_kept(mesh, source, creases, held, distance),
                                      {.edge = 0, .max_deviation = run.max_deviation, .crease_angle = run.prepare.features.angle});
     return Done{};
 }

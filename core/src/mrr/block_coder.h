@@ -78,7 +78,7 @@ private:
     static constexpr std::uint32_t kBeside = 128;  // symbols from here on name a vertex beside the record before
     static constexpr std::uint32_t kMostCodedFan = 10;
     static constexpr std::uint32_t kIsBeside = 0xFFFFFF00U;
-    static constexpr std::size_t kAhead = 16;
+    static constexpr std::size_t kAhead = 8;  // as many steps go around most vertices
 
     static Status bad(const char* what) { return Error{Cause::kCorrupt, what, ""}; }
 
@@ -122,7 +122,8 @@ private:
         walker = {};
         if (places_[n] >= mesh_.mesh().vertex_count()) return;
         walker.vertex = places_[n];
-        mesh_.prefetch_vertex(walker.vertex);
+        mesh_.prefetch_corner_of(walker.vertex);
+        mesh_.prefetch_position(walker.vertex);
     }
 
     void step(Walker& walker) {
@@ -130,7 +131,7 @@ private:
         if (walker.corner == kNone) {
             walker.corner = mesh_.corner_of(walker.vertex);
         } else {
-            mesh_.prefetch_vertex(origin(mesh_.mesh(), next(walker.corner)));
+            mesh_.prefetch_position(origin(mesh_.mesh(), next(walker.corner)));
             walker.corner = mesh_.twins()[prev(walker.corner)];
         }
         mesh_.prefetch_corner(walker.corner);
@@ -187,8 +188,9 @@ private:
     /// Of the neighbours from `first` to `last`, both included.
     Offset mean_offset(std::uint32_t first, std::uint32_t last) const {
         Offset sum{};
+        const Star::Spoke* const spokes = &star_[0];
         for (std::uint32_t n = first; n <= last; ++n) {
-            const Offset& offset = star_[n].offset;
+            const Offset& offset = spokes[n].offset;
             for (int axis = 0; axis < 3; ++axis) sum[axis] += offset[axis];
         }
         const double count = last - first + 1;
@@ -218,11 +220,11 @@ private:
     }
 
     void note_beside(std::uint32_t vertex, std::uint32_t added) {
-        beside_.clear();
-        beside_.push_back(vertex);
-        beside_.push_back(added);
         const std::uint32_t most = std::min(star_.valence(), kBeside - 2);
-        for (std::uint32_t n = 0; n < most; ++n) beside_.push_back(star_[n].vertex);
+        beside_.resize(2 + most);
+        beside_[0] = vertex;
+        beside_[1] = added;
+        for (std::uint32_t n = 0; n < most; ++n) beside_[2 + n] = star_[n].vertex;
     }
 
     Symbols symbols_;

@@ -55,8 +55,9 @@ public:
           most_(static_cast<double>((std::uint64_t{1} << grid.bits()) - 1)) {}
 
     [[nodiscard]] std::uint32_t code(double value, unsigned axis) const {
-        const double nearest = std::floor((value - origin_[axis]) * per_unit_ + 0.5);
-        return static_cast<std::uint32_t>(std::min(std::max(nearest, 0.0), most_));
+        const double upper =
+            (value - origin_[axis]) * per_unit_ + 0.5;  // its floor is the nearest; of one not below 0, its whole part
+        return static_cast<std::uint32_t>(std::min(std::max(upper, 0.0), most_));
     }
     [[nodiscard]] double value(std::uint32_t code, unsigned axis) const { return origin_[axis] + code * step_; }
     [[nodiscard]] int scale(double length, double /*at*/) const {

@@ -121,4 +121,32 @@ std::optional<double> SliverFeatures::close_corners(const SliverFace& face) cons
     return is_corner(face.shortest) && is_corner(next(face.shortest)) ? std::optional(shortest) : std::nullopt;
 }
 
+/// Follows the cut of the surface with the plane through the middle of the face, across its longest edge. Vertices are on one
+/// side or the other, none on the plane, so each face that is cut is cut through two edges, and the walk ends where it began.
+std::optional<double> SliverFeatures::narrow_part(const SliverFace& face) const {
+    const double limit = 2 * kHeight * face.wanted;
+    const Vec3& from = position(origin(mesh_, face.longest));
+    const Vec3 along = position(origin(mesh_, next(face.longest))) - from;
+    const Vec3 middle = (from + position(origin(mesh_, next(face.longest))) + position(origin(mesh_, prev(face.longest)))) / 3;
+    const auto side = [&](HalfEdge h) { return (position(origin(mesh_, h)) - middle).dot(along); };
+    const auto point_on = [&](HalfEdge h) -> Vec3 {
+        const double begin = side(h), end = side(next(h));
+        const Vec3& p = position(origin(mesh_, h));
+        return p + (position(origin(mesh_, next(h))) - p) * (begin / (begin - end));
+    };
+    const auto crosses = [&](HalfEdge h) { return (side(h) >= 0) != (side(next(h)) >= 0); };
+    if (!crosses(face.longest)) return std::nullopt;  // no area
+    double girth = 0;
+    Vec3 at = point_on(face.longest);
+    for (HalfEdge h = face.longest;;) {
+        h = crosses(next(h)) ? next(h) : prev(h);
+        const Vec3 there = point_on(h);
+        girth += (there - at).norm();
+        at = there;
+        h = marks_.twin(h);
+        if (h == face.longest) return girth < limit ? std::optional(girth) : std::nullopt;
+        if (h == kNone || !(girth < limit)) return std::nullopt;
+    }
+}
+
 }  // namespace vsplit

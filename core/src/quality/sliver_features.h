@@ -29,6 +29,9 @@ public:
     [[nodiscard]] std::optional<double> narrow_strip(const SliverFace& face) const;
     /// The distance of the two corners that its shortest edge joins.
     [[nodiscard]] std::optional<double> close_corners(const SliverFace& face) const;
+    /// The girth of the part there: how far it is around it, across the longest edge. Two points of that cut are at most half of
+    /// it apart, and so is a face's height.
+    [[nodiscard]] std::optional<double> narrow_part(const SliverFace& face) const;
 
 private:
     using Vertices = std::vector<std::uint32_t>;

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "quality/flip_bend.h"
+#include "quality/flip_rules.h"
 #include "spatial/shapes.h"
 #include "vsplit/quality/stretch.h"
 
@@ -19,8 +19,12 @@ constexpr std::size_t kMostFaces = 64;      // around a vertex that may go, as f
 
 class Mender {
 public:
-    Mender(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals, double crease_angle)
-        : mesh_(mesh), marks_(marks), normals_(normals), crease_cosine_(std::cos(crease_angle * std::numbers::pi / 180)) {}
+    Mender(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals, double crease_angle, double stretch)
+        : mesh_(mesh),
+          marks_(marks),
+          normals_(normals),
+          crease_cosine_(std::cos(crease_angle * std::numbers::pi / 180)),
+          least_stretch_(std::max(kStretchFloor, stretch + kLeastGain)) {}
 
     [[nodiscard]] std::optional<double> flip(HalfEdge h) const {
         const HalfEdge g = marks_.twin(h);
@@ -64,7 +68,7 @@ private:
     [[nodiscard]] bool mends(const TriangleShape& face, std::uint32_t old, double least_cosine) const {
         const auto& [a, b, c] = face.corners;
         const Vec3 normal = normal_of(face);
-        return normal.dot(normals_.normals[old]) > least_cosine * normal.norm() && stretch(a, b, c) >= kStretchFloor;
+        return normal.dot(normals_.normals[old]) > least_cosine * normal.norm() && stretch(a, b, c) >= least_stretch_;
     }
 
     /// Whether the edge of `side`, if it is a crease, bends enough with `face` on this side of it.
@@ -136,13 +140,14 @@ private:
     const CreaseMarks& marks_;
     const FaceNormals& normals_;
     double crease_cosine_;
+    double least_stretch_;  // of what mends
 };
 
 }  // namespace
 
 std::optional<double> least_mend(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals,
                                  double crease_angle, const SliverFace& face) {
-    const Mender mender(mesh, marks, normals, crease_angle);
+    const Mender mender(mesh, marks, normals, crease_angle, face.stretch);
     std::optional<double> least = mender.flip(face.longest);
     const auto take = [&](const std::optional<double>& moved) {
         if (moved && (!least || *moved < *least)) least = moved;

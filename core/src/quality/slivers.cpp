@@ -13,8 +13,9 @@
 namespace vsplit {
 namespace {
 
-constexpr std::array kCauses{SliverCause::kNarrowStrip, SliverCause::kSharpCorner,   SliverCause::kCloseCorners,
-                             SliverCause::kDeviation,   SliverCause::kHeldByCreases, SliverCause::kUnexplained};
+constexpr std::array kCauses{SliverCause::kNarrowStrip, SliverCause::kSharpCorner, SliverCause::kCloseCorners,
+                             SliverCause::kNarrowPart,  SliverCause::kDeviation,   SliverCause::kHeldByCreases,
+                             SliverCause::kUnexplained};
 
 double stretch_of_face(const TriangleMesh& mesh, std::uint32_t f) {
     const Triangle& t = mesh.faces[f];
@@ -69,6 +70,7 @@ Finding find_cause(const TriangleMesh& mesh, const CreaseMarks& marks, const Fac
     if (const auto angle = features.sharp_corner(face)) return {SliverCause::kSharpCorner, *angle};
     if (const auto gap = features.narrow_strip(face)) return {SliverCause::kNarrowStrip, *gap};
     if (const auto distance = features.close_corners(face)) return {SliverCause::kCloseCorners, *distance};
+    if (const auto girth = features.narrow_part(face)) return {SliverCause::kNarrowPart, *girth};
     if (!(options.max_deviation > 0)) return {SliverCause::kUnexplained, face.stretch};
     const std::optional<double> moved = least_mend(mesh, marks, normals, options.crease_angle, face);
     if (moved && *moved > options.max_deviation) return {SliverCause::kDeviation, *moved};
@@ -91,6 +93,8 @@ std::string message_of(const Slivers& s, double max_deviation) {
             return faces + (one ? "lies" : "lie") + " where two creases meet at " + values + " degrees";
         case SliverCause::kCloseCorners:
             return faces + (one ? "joins" : "join") + " corners of creases " + values + " apart";
+        case SliverCause::kNarrowPart:
+            return faces + (one ? "lies" : "lie") + " along a part of a girth of " + values;
         case SliverCause::kDeviation:
             return faces + (one ? "is" : "are") + " held by max_deviation, " + number_text(max_deviation) +
                    ": mending moves the surface by " + values;
@@ -121,6 +125,8 @@ std::string_view sliver_cause_name(SliverCause cause) {
             return "SHARP_CORNER";
         case SliverCause::kCloseCorners:
             return "CLOSE_CORNERS";
+        case SliverCause::kNarrowPart:
+            return "NARROW_PART";
         case SliverCause::kDeviation:
             return "DEVIATION";
         case SliverCause::kHeldByCreases:

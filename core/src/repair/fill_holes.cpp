@@ -42,8 +42,8 @@ Edges edges_between_borders(const TriangleMesh& mesh, const std::vector<Loop>& l
 
 /// The border's vertices in the direction in which the missing faces run.
 std::vector<std::uint32_t> hole_vertices(const TriangleMesh& mesh, const Loop& loop) {
-    std::vector<std::uint32_t> vertices;
-    for (auto h = loop.rbegin(); h != loop.rend(); ++h) vertices.push_back(origin(mesh, *h));
+    std::vector<std::uint32_t> vertices(loop.size());
+    std::transform(loop.rbegin(), loop.rend(), vertices.begin(), [&mesh](HalfEdge h) { return origin(mesh, h); });
     return vertices;
 }
 

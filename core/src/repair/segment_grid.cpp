@@ -26,9 +26,10 @@ SegmentGrid::SegmentGrid(std::span<const Segment> segments, double reach) {
     std::vector<std::pair<Cell, std::uint32_t>> entries;
     for (std::uint32_t number = 0; number < segments.size(); ++number) {
         const auto& [from, to] = segments[number];
-        const double steps = std::ceil(2 * (to - from).norm() / width_);
-        for (double step = 0; step <= steps; ++step) {
-            const Vec3 sample = steps == 0 ? from : Vec3(from + (to - from) * (step / steps));
+        const auto steps = static_cast<std::uint64_t>(std::ceil(2 * (to - from).norm() / width_));
+        for (std::uint64_t step = 0; step <= steps; ++step) {
+            const Vec3 sample =
+                steps == 0 ? from : Vec3(from + (to - from) * (static_cast<double>(step) / static_cast<double>(steps)));
             const Cell least = cell_of(sample - pad);
             const Cell most = cell_of(sample + pad);
             for (std::int32_t x = least[0]; x <= most[0]; ++x) {

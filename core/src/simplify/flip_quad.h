@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "quality/face_bounds.h"
-#include "quality/flip_bend.h"
+#include "quality/flip_rules.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "quality/face_bounds.h"
+#include "quality/flip_rules.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
@@ -17,8 +18,5 @@ struct PolishLimits {
     std::uint32_t max_valence = std::numeric_limits<std::uint32_t>::max();
     FaceBounds bounds{};
 };
-
-/// Gains of stretch below this are not worth a record.
-inline constexpr double kLeastGain = 2e-4;
 
 }  // namespace vsplit

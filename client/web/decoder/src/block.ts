@@ -117,27 +117,23 @@ export class RecordDecoder {
     if (turn >= valence || more + 1 >= valence) throw new CorruptError("a fan that is none of the vertex");
     star.turn(turn);
     const steps = more + 1;
-    const anchor = star.corner[star.at(0)]!;
+    const begin = star.first;
+    const end = begin + steps;
+    const anchor = star.corner[begin]!;
 
     star.lie();
     const { x, y, z, hasPlane } = star;
     let fx = 0, fy = 0, fz = 0, rx = 0, ry = 0, rz = 0;
-    let at = star.at(0);
-    for (let n = 0; ; ++n) {
-      fx += x[at]!;
-      fy += y[at]!;
-      fz += z[at]!;
-      if (n === steps) break;
-      at = at + 1 === valence ? 0 : at + 1;
+    for (let n = begin; n <= end; ++n) {
+      fx += x[n]!;
+      fy += y[n]!;
+      fz += z[n]!;
     }
-    const begin = star.at(0);
-    const ex = (x[begin]! + x[at]!) * 0.5, ey = (y[begin]! + y[at]!) * 0.5, ez = (z[begin]! + z[at]!) * 0.5;
-    for (let n = steps; ; ++n) {
-      rx += x[at]!;
-      ry += y[at]!;
-      rz += z[at]!;
-      if (n === valence) break;
-      at = at + 1 === valence ? 0 : at + 1;
+    const ex = (x[begin]! + x[end]!) * 0.5, ey = (y[begin]! + y[end]!) * 0.5, ez = (z[begin]! + z[end]!) * 0.5;
+    for (let n = end; n <= begin + valence; ++n) {
+      rx += x[n]!;
+      ry += y[n]!;
+      rz += z[n]!;
     }
     const inFan = steps + 1, inRest = valence - steps + 1;
     fx /= inFan;
@@ -173,10 +169,7 @@ export class RecordDecoder {
     besideList[0] = vertex;
     besideList[1] = added;
     const most = Math.min(star.valence, beside - 2);
-    for (let n = 0, at = star.at(0); n < most; ++n) {
-      besideList[n + 2] = star.vertex[at]!;
-      at = at + 1 === star.valence ? 0 : at + 1;
-    }
+    for (let n = 0; n < most; ++n) besideList[n + 2] = star.vertex[star.first + n]!;
     this.besideCount = most + 2;
   }
 

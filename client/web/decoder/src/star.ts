@@ -6,6 +6,7 @@ import { next, prev, type ProgressiveMesh } from "./mesh.js";
  */
 export class Star {
   valence = 0;
+  /** Where in the arrays the ring begins. They hold it twice, one after the other, so that it goes on from there without a turn. */
   first = 0;
   cx = 0;
   cy = 0;
@@ -30,18 +31,20 @@ export class Star {
     const cy = (this.cy = positions[3 * vertex + 1]!);
     const cz = (this.cz = positions[3 * vertex + 2]!);
     let count = 0;
-    let nearest = 0;
-    let least = 0;
+    let first = 0;
+    let nearest = 0xffffffff;
+    let least = Infinity;
     let corner = start;
     do {
-      if (count === this.corner.length) this.grow();
+      if (2 * count + 2 > this.corner.length) this.grow();
       const neighbour = corners[next(corner)]!;
       const dx = positions[3 * neighbour]! - cx;
       const dy = positions[3 * neighbour + 1]! - cy;
       const dz = positions[3 * neighbour + 2]! - cz;
       const square = dx * dx + dy * dy + dz * dz;
-      if (count === 0 || square < least || (square === least && neighbour < this.vertex[nearest]!)) {
-        nearest = count;
+      if (square < least || (square === least && neighbour < nearest)) {
+        first = count;
+        nearest = neighbour;
         least = square;
       }
       this.corner[count] = corner;
@@ -52,8 +55,15 @@ export class Star {
       ++count;
       corner = twins[prev(corner)]!;
     } while (corner !== start);
+    for (let n = 0; n < count; ++n) {
+      this.corner[count + n] = this.corner[n]!;
+      this.vertex[count + n] = this.vertex[n]!;
+      this.x[count + n] = this.x[n]!;
+      this.y[count + n] = this.y[n]!;
+      this.z[count + n] = this.z[n]!;
+    }
     this.valence = count;
-    this.first = nearest;
+    this.first = first;
   }
 
   private grow(): void {
@@ -75,29 +85,27 @@ export class Star {
     this.z = float(this.z);
   }
 
+  /** `steps` is less than the valence. */
   turn(steps: number): void {
-    this.first = (this.first + steps) % this.valence;
-  }
-
-  /** Place in the arrays of spoke n from the first on; n may go once around. */
-  at(n: number): number {
-    const place = this.first + n;
-    return place < this.valence ? place : place < 2 * this.valence ? place - this.valence : place - 2 * this.valence;
+    this.first += steps;
+    if (this.first >= this.valence) this.first -= this.valence;
   }
 
   lie(): void {
-    const { normal, reach, x, y, z, valence } = this;
+    const { normal, reach, x, y, z, valence, first } = this;
     let n0 = 0, n1 = 0, n2 = 0, r0 = 0, r1 = 0, r2 = 0;
-    for (let n = 0, a = this.at(0); n < valence; ++n) {
-      const b = a + 1 === valence ? 0 : a + 1;
-      const ax = x[a]!, ay = y[a]!, az = z[a]!, bx = x[b]!, by = y[b]!, bz = z[b]!;
+    let ax = x[first]!, ay = y[first]!, az = z[first]!;
+    for (let b = first + 1; b <= first + valence; ++b) {
+      const bx = x[b]!, by = y[b]!, bz = z[b]!;
       n0 += ay * bz - az * by;
       n1 += az * bx - ax * bz;
       n2 += ax * by - ay * bx;
       if (Math.abs(ax) > r0) r0 = Math.abs(ax);
       if (Math.abs(ay) > r1) r1 = Math.abs(ay);
       if (Math.abs(az) > r2) r2 = Math.abs(az);
-      a = b;
+      ax = bx;
+      ay = by;
+      az = bz;
     }
     normal[0] = n0;
     normal[1] = n1;

@@ -74,11 +74,10 @@ public:
     /// Splits applied so far that added one visible face; see MultiresMesh.
     [[nodiscard]] const std::vector<std::uint32_t>& border_splits() const { return border_splits_; }
 
-    /// Ask for the memory that a vertex, or the face of a corner, lies in; harmless where that is not needed after all.
-    void prefetch_vertex(std::uint32_t vertex) const {
-        __builtin_prefetch(corner_of_.data() + vertex);
-        __builtin_prefetch(mesh_.positions.data() + vertex);
-    }
+    /// Ask for the memory that corner_of, a position, or the face of a corner lies in; harmless where that is not needed after
+    /// all.
+    void prefetch_corner_of(std::uint32_t vertex) const { __builtin_prefetch(corner_of_.data() + vertex); }
+    void prefetch_position(std::uint32_t vertex) const { __builtin_prefetch(mesh_.positions.data() + vertex); }
     void prefetch_corner(std::uint32_t corner) const {
         __builtin_prefetch(mesh_.faces.data() + corner / 3);
         __builtin_prefetch(twin_.data() + corner);

@@ -15,6 +15,7 @@ enum class SliverCause {
     kNarrowStrip,    ///< two creases closer to each other than the floor allows for edges this long
     kSharpCorner,    ///< two creases that meet at an angle below what the floor needs
     kCloseCorners,   ///< two corners of creases (ends, meetings, turns over 40 degrees) as close
+    kNarrowPart,     ///< the part itself, a tube or rod, is as narrow there: so far around, across the face's longest edge
     kDeviation,      ///< each flip or collapse that would mend it moves the surface by more than max_deviation
     kHeldByCreases,  ///< it has a corner on a crease, and no flip or collapse mends it that keeps creases
     kUnexplained,    ///< nothing of these
@@ -29,7 +30,7 @@ struct Slivers {
 
     SliverCause cause = SliverCause::kUnexplained;
     std::uint32_t count = 0;
-    double least = 0;  ///< distance of the creases or corners; angle in degrees; what a mend would move; HELD_BY_CREASES,
+    double least = 0;  ///< distance of the creases or corners; angle in degrees; girth; what a mend would move; HELD_BY_CREASES,
                        ///< UNEXPLAINED: the stretch
     double most = 0;   ///< the same, of the face where it is most
     std::vector<std::uint32_t> elements;  ///< the first kExamples faces
@@ -46,10 +47,9 @@ struct SliverOptions {
 /// rest in their order. One entry a cause, in order; empty where there is no sliver.
 ///
 /// With L the longest edge of a face, or `edge` where that is less, the bounds are those at which the best triangle just reaches
-/// the floor: a strip 0.117 L wide, corners 0.123 L apart, an angle of 7.0 degrees. Boundary edges belong among the creases.
-/// What is found holds for faces of this size: many smaller ones could fill a strip better.
-/// \pre `mesh` is manifold; `creases` are edges of it. O(faces) where there are slivers, else only the time to look; O(valence^2)
-/// a sliver.
+/// the floor: a strip 0.117 L wide, corners 0.123 L apart, an angle of 7.0 degrees, a girth of 0.234 L. Boundary edges belong
+/// among the creases. What is found holds for faces of this size: many smaller ones could fill a strip better. \pre `mesh` is
+/// manifold; `creases` are edges of it. O(faces) where there are slivers, else only the time to look; O(valence^2) a sliver.
 [[nodiscard]] std::vector<Slivers> explain_slivers(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,
                                                    const SliverOptions& options);
 
