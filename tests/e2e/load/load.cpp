@@ -2,8 +2,8 @@
 // delete.
 //
 // Prints what the calls took and how they ended, and fails where one ended otherwise than well or by a limit that is named, or
-// where 99 of 100 GetSessions took longer than 50 ms, and what the machine alone makes a thread wait. With ROUNDS and the server's PID also its memory after each round, and
-// fails where that grows.
+// where 99 of 100 GetSessions took longer than 50 ms, and what the machine alone makes a thread wait. With ROUNDS and the
+// server's PID also its memory after each round, and fails where that grows.
 
 #include <algorithm>
 #include <atomic>
@@ -175,8 +175,8 @@ double resident_mb(const std::string& pid) {
     return 0;
 }
 
-// How long after its time a thread runs that sleeps for 1 ms, until `stop`: on a machine that others use too, no server is faster. ms,
-// of 99 in 100.
+// How long after its time a thread runs that sleeps for 1 ms, until `stop`: on a machine that others use too, no server is
+// faster. ms, of 99 in 100.
 double machine_delay(const std::stop_token& stop) {
     std::vector<double> late;
     while (!stop.stop_requested()) {
