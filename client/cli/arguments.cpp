@@ -103,6 +103,16 @@ void add_server(CLI::App& verb, Arguments& a) {
             [](const std::string& text) { return text.empty() ? std::string("is empty; accepted is HOST:PORT") : ""; }, ""))
         ->type_name("HOST:PORT")
         ->group(kGroup);
+    verb.add_option("--tls-ca", a.tls_ca, "Speak TLS; authorities (PEM) that sign for the server, or system for the machine's")
+        ->type_name("FILE")
+        ->group(kGroup);
+    verb.add_option("--tls-cert", a.tls_cert, "Certificate (PEM) to show to a server that wants one")
+        ->type_name("FILE")
+        ->group(kGroup);
+    verb.add_option("--tls-key", a.tls_key, "Its private key (PEM)")->type_name("FILE")->group(kGroup);
+    verb.add_option("--token-file", a.token_file, "The token for the server. Default: the variable VSPLIT_TOKEN")
+        ->type_name("FILE")
+        ->group(kGroup);
     verb.add_option("--session", a.session, "Use this session instead of uploading; leave IN out, or give -")
         ->type_name("ID")
         ->group(kGroup);

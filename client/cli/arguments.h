@@ -36,6 +36,10 @@ struct Arguments {
     v1::QualityProfile profile = v1::QUALITY_PROFILE_UNSPECIFIED;  ///< quality: whose limits to check
     FeatureRemoval removal;  ///< features, remove-features: how they are found, and which go
     std::string server;
+    std::string tls_ca;      ///< file, or "system"
+    std::string tls_cert;    ///< file
+    std::string tls_key;     ///< file
+    std::string token_file;  ///< empty: the environment has the token
     std::string session;
     std::string representation;
     bool keep = false;

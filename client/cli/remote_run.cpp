@@ -6,6 +6,7 @@
 
 #include "cli/local_run.h"
 #include "cli/remote_session.h"
+#include "cli/server_access.h"
 #include "vsplit/client/mesh_receiver.h"
 #include "vsplit/client/meshing_client.h"
 #include "vsplit/method/method_options.h"
@@ -241,9 +242,9 @@ private:
 Expected<Outcome> run_on_server(const Arguments& arguments, const std::vector<Output>& outputs, ProgressBar& progress,
                                 const std::stop_token& stop) {
     if (Status valid = check_arguments(arguments); !valid) return valid.error();
-    client::ConnectOptions connect;
-    connect.stop = stop;
-    Expected<client::MeshingClient> client = client::MeshingClient::connect(arguments.server, connect);
+    const Expected<client::ConnectOptions> connect = connect_options(arguments, stop);
+    if (!connect) return connect.error();
+    Expected<client::MeshingClient> client = client::MeshingClient::connect(arguments.server, *connect);
     if (!client) return client.error();
     const Expected<RemoteSession> session = RemoteSession::open(*client, arguments, progress, stop);
     if (!session) return session.error();

@@ -88,13 +88,14 @@ DownloadSource::DownloadSource(const service::PickedMesh& mesh, MeshFormat forma
     : mesh_(mesh.ref()), format_(format), prepared_(std::move(prepared)) {}
 
 Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service,
+                                                                             const service::Caller& caller,
                                                                              const v1::DownloadMeshRequest& request,
                                                                              const Wake& wake) {
     const Expected<std::optional<MeshFormat>> asked = wire::from_proto(request.format());
     if (!asked) return asked.error();
     const MeshFormat format = asked->value_or(MeshFormat::kStlBinary);
     if (Status possible = check_order(request.order(), format); !possible) return possible.error();
-    const Expected<service::SessionSnapshot> session = service.snapshot(request.session());
+    const Expected<service::SessionSnapshot> session = service.snapshot(request.session(), caller);
     if (!session) return session.error();
     Expected<service::PickedMesh> mesh = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
     if (!mesh) return mesh.error();

@@ -37,16 +37,16 @@ public:
     UnaryReactor* RemoveFeatures(Context* context, const v1::RemoveFeaturesRequest* request,
                                  v1::RemoveFeaturesResponse* response) override;
 
-private:
-    using Answer = std::function<Status()>;
+    using Answer = std::function<Status(const service::Caller& caller)>;
 
+private:
     UnaryReactor* answer_now(Context* context, const RpcWatch& watch, const Answer& answer);
     /// On a thread of the pool that `submit` stands for.
     using Submit = bool (service::MeshingService::*)(service::WorkerPool::Task);
     UnaryReactor* answer_later(Context* context, const RpcWatch& watch, Submit submit, Answer answer);
 
     template <class Source, class Request>
-    auto* stream(const char* method, const Request& request);
+    auto* stream(Context& context, const char* method, const Request& request);
 
     service::MeshingService& service_;
     RpcLedger& ledger_;

@@ -5,8 +5,9 @@
 namespace vsplit::service {
 
 Session::Session(std::string id, std::uint64_t number, std::shared_ptr<const SourceMesh> source, const ServiceOptions& options,
-                 WorkerPool& workers)
+                 WorkerPool& workers, std::string owner)
     : id_(std::move(id)),
+      owner_(std::move(owner)),
       number_(number),
       options_(options),
       queue_(std::make_shared<JobQueue>(workers, options.limits.waiting_jobs)),

@@ -19,8 +19,10 @@ class Session {
 public:
     /// `source` may be null. `number` orders sessions by creation.
     Session(std::string id, std::uint64_t number, std::shared_ptr<const SourceMesh> source, const ServiceOptions& options,
-            WorkerPool& workers);
+            WorkerPool& workers, std::string owner = {});
 
+    /// Who made it; nobody else sees it.
+    [[nodiscard]] const std::string& owner() const { return owner_; }
     [[nodiscard]] const std::string& id() const { return id_; }
     [[nodiscard]] std::uint64_t number() const { return number_; }
     [[nodiscard]] SessionSnapshot snapshot() const;
@@ -69,6 +71,7 @@ private:
                                            std::vector<SessionSnapshot::RepresentationPointer>& dropped);
 
     const std::string id_;
+    const std::string owner_;
     const std::uint64_t number_;
     const ServiceOptions options_;
     const std::chrono::system_clock::time_point create_time_ = std::chrono::system_clock::now();

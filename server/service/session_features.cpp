@@ -16,16 +16,17 @@ Expected<std::shared_ptr<const SourceMesh>> source_of(const Session& session) {
 }  // namespace
 
 Expected<std::vector<ShapeFeature>> list_features_of(MeshingService& service, std::string_view session,
-                                                     const FeatureSearch& search) {
-    const Expected<std::shared_ptr<Session>> found = service.sessions().find(session);
+                                                     const FeatureSearch& search, const Caller& caller) {
+    const Expected<std::shared_ptr<Session>> found = service.sessions().find(session, caller.owner);
     if (!found) return found.error();
     const Expected<std::shared_ptr<const SourceMesh>> source = source_of(**found);
     if (!source) return source.error();
     return guarded([&] { return list_features(*(*source)->mesh, search); });
 }
 
-Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::string_view session, const FeatureRemoval& removal) {
-    const Expected<std::shared_ptr<Session>> found = service.sessions().find(session);
+Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::string_view session, const FeatureRemoval& removal,
+                                             const Caller& caller) {
+    const Expected<std::shared_ptr<Session>> found = service.sessions().find(session, caller.owner);
     if (!found) return found.error();
     if (Status idle = (*found)->require_idle(); !idle) return idle.error();
     const Expected<std::shared_ptr<const SourceMesh>> before = source_of(**found);

@@ -30,7 +30,8 @@ namespace vsplit::client {
 class MeshingClient {
 public:
     /// \param target "HOST:PORT", or "unix:PATH"
-    /// \return INVALID_OPTION (field "server") for another form; UNAVAILABLE, with the reason, when nobody answers.
+    /// \return INVALID_OPTION (field "server") for another form; UNAVAILABLE, with the reason, when nobody answers
+    ///         or TLS does not come about; FILE_ACCESS for a file of TLS.
     [[nodiscard]] static Expected<MeshingClient> connect(const std::string& target, const ConnectOptions& options = {});
 
     MeshingClient(MeshingClient&&) noexcept;
