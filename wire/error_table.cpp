@@ -37,6 +37,8 @@ constexpr std::array kTable{
     ErrorRow{Cause::kUnavailable, StatusCode::UNAVAILABLE, 503},
     ErrorRow{Cause::kCancelled, StatusCode::CANCELLED, 499},
     ErrorRow{Cause::kDeadlineExceeded, StatusCode::DEADLINE_EXCEEDED, 504},
+    ErrorRow{Cause::kUnauthenticated, StatusCode::UNAUTHENTICATED, 401},
+    ErrorRow{Cause::kForbidden, StatusCode::PERMISSION_DENIED, 403},
     ErrorRow{Cause::kInternal, StatusCode::INTERNAL, 500},
 };
 
@@ -70,6 +72,10 @@ Cause cause_of_code(StatusCode code) {
             return Cause::kNotReady;
         case StatusCode::ABORTED:
             return Cause::kBusy;
+        case StatusCode::UNAUTHENTICATED:
+            return Cause::kUnauthenticated;
+        case StatusCode::PERMISSION_DENIED:
+            return Cause::kForbidden;
         case StatusCode::DATA_LOSS:
             return Cause::kCorrupt;
         default:

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <type_traits>
 #include <variant>
 
 #include "cli/arguments.h"
@@ -25,8 +26,14 @@ namespace {
 
 std::string json_of(const Document& document) {
     if (const auto* comparison = std::get_if<Comparison>(&document)) return to_json(*comparison);
-    if (const auto* made = std::get_if<v1::Representation>(&document)) return wire::to_json(*made, wire::JsonStyle::kIndented);
-    return wire::to_json(std::get<v1::MeshSummary>(document), wire::JsonStyle::kIndented);
+    return std::visit(
+        [](const auto& message) -> std::string {
+            if constexpr (std::is_same_v<decltype(message), const Comparison&>)
+                return {};
+            else
+                return wire::to_json(message, wire::JsonStyle::kIndented);
+        },
+        document);
 }
 
 void print(const Arguments& arguments, const Outcome& outcome) {
@@ -69,7 +76,7 @@ Expected<Outcome> execute(const Arguments& arguments, const std::vector<Output>&
                                                          : run_on_server(arguments, outputs, progress, interrupt.token());
     if (!outcome) return outcome;
     if (interrupt.token().stop_requested()) return ExecutionContext::cancelled_error();
-    if (Status written = write_outputs(*outcome, outputs); !written) return written.error();
+    if (Status written = write_outputs(*outcome, outputs, arguments.order); !written) return written.error();
     return outcome;
 }
 

@@ -83,6 +83,11 @@ void add_output(CLI::App& verb, Arguments& a) {
                     "bdf, vtk, vtk-ascii, "
                     "vtu or vsplit")
         ->type_name("F");
+    verb.add_option("--order", a.order,
+                    "Of the elements in OUT: 1, or 2 for triangles of six nodes, the middle ones on the surface worked on, of a "
+                    ".vsplit file on its finest resolution (msh, inp, bdf, vtk, vtu). Default 1")
+        ->check(CLI::Range(1U, 2U).description(""))
+        ->type_name("N");
     verb.add_flag("--json", a.json, "Print one JSON document on the standard output");
     verb.add_flag("--no-progress", a.no_progress, "No progress bar; there is none anyway where stderr is no terminal");
     verb.add_option("--threads", a.threads, "Threads to use, 0 to 1024; the result does not depend on it. Default 0: all cores")
@@ -97,6 +102,16 @@ void add_server(CLI::App& verb, Arguments& a) {
         ->check(CLI::Validator(
             [](const std::string& text) { return text.empty() ? std::string("is empty; accepted is HOST:PORT") : ""; }, ""))
         ->type_name("HOST:PORT")
+        ->group(kGroup);
+    verb.add_option("--tls-ca", a.tls_ca, "Speak TLS; authorities (PEM) that sign for the server, or system for the machine's")
+        ->type_name("FILE")
+        ->group(kGroup);
+    verb.add_option("--tls-cert", a.tls_cert, "Certificate (PEM) to show to a server that wants one")
+        ->type_name("FILE")
+        ->group(kGroup);
+    verb.add_option("--tls-key", a.tls_key, "Its private key (PEM)")->type_name("FILE")->group(kGroup);
+    verb.add_option("--token-file", a.token_file, "The token for the server. Default: the variable VSPLIT_TOKEN")
+        ->type_name("FILE")
         ->group(kGroup);
     verb.add_option("--session", a.session, "Use this session instead of uploading; leave IN out, or give -")
         ->type_name("ID")
@@ -331,12 +346,48 @@ void add_resolution_verb(CLI::App& app, Arguments& a) {
     verb.footer("Example:\n  vsplit resolution improved.vsplit --faces 5000 -o coarse.stl");
 }
 
+/// What features and remove-features share.
+void add_feature_search(CLI::App& verb, Arguments& a) {
+    add_input(
+        verb, a,
+        "Closed mesh (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or .vsplit file at the resolution it "
+        "was made for");
+    verb.add_option("--angle", a.removal.search.angle,
+                    "Edges that bend by more part the surface; degrees, > 0, < 180. Default 40: holes of fewer than 9 sides are "
+                    "not found")
+        ->check(real_number())
+        ->type_name("A");
+}
+
+void add_features(CLI::App& app, Arguments& a) {
+    CLI::App& verb = *app.add_subcommand("features", "List round holes and bosses with diameter, depth and axis");
+    add_feature_search(verb, a);
+    verb.footer("Example:\n  vsplit features crankshaft.stl");
+}
+
+void add_remove_features(CLI::App& app, Arguments& a) {
+    CLI::App& verb = *app.add_subcommand("remove-features", "Fill round holes and take bosses away; the rest stays as it is");
+    add_feature_search(verb, a);
+    verb.add_option("--id", a.removal.ids, "Feature to remove, by the number that `vsplit features` gives it; may be repeated")
+        ->check(whole_number())
+        ->type_name("N")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
+    add_real(verb, "--max-diameter", a.removal.max_diameter, "Remove all of this diameter and less; length > 0")->type_name("D");
+    verb.footer(
+        "With --session the result takes the place of the session's mesh.\n"
+        "Example:\n  vsplit remove-features plate.stl --max-diameter 6 -o filled.stl");
+}
+
 const std::map<std::string_view, Verb>& verbs() {
     static const std::map<std::string_view, Verb> all{{"info", Verb::kInfo},
                                                       {"improve", Verb::kImprove},
                                                       {"control", Verb::kControl},
                                                       {"resolution", Verb::kResolution},
-                                                      {"quality", Verb::kQuality}};
+                                                      {"quality", Verb::kQuality},
+                                                      {"features", Verb::kFeatures},
+                                                      {"remove-features", Verb::kRemoveFeatures}};
     return all;
 }
 
@@ -365,6 +416,8 @@ void build(CLI::App& app, Arguments& a) {
     add_control(app, a);
     add_resolution_verb(app, a);
     add_quality(app, a);
+    add_features(app, a);
+    add_remove_features(app, a);
     for (CLI::App* verb : app.get_subcommands({})) {
         add_output(*verb, a);
         add_server(*verb, a);

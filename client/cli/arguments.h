@@ -7,18 +7,20 @@
 #include <vector>
 
 #include "vsplit/method/method_options.h"
+#include "vsplit/shapes/remove_features.h"
 #include "vsplit/v1/meshing.pb.h"
 
 namespace vsplit::cli {
 
-enum class Verb { kInfo, kImprove, kControl, kResolution, kQuality };
+enum class Verb { kInfo, kImprove, kControl, kResolution, kQuality, kFeatures, kRemoveFeatures };
 
 /// The command line, as it was given; nothing is checked here but its grammar.
 struct Arguments {
     Verb verb = Verb::kInfo;
     std::string input;  ///< file; empty or "-" with a session
     std::vector<std::string> outputs;
-    std::string format;  ///< of the outputs; empty: by extension
+    std::string format;       ///< of the outputs; empty: by extension
+    std::uint32_t order = 1;  ///< of the outputs' elements
     bool json = false;
     bool no_progress = false;
     unsigned threads = 0;  ///< 0: all cores
@@ -32,7 +34,12 @@ struct Arguments {
     std::string against;          ///< quality: the mesh to measure the distance to; empty: none
     std::optional<double> error;  ///< quality against: most error of the distances; empty: the default
     v1::QualityProfile profile = v1::QUALITY_PROFILE_UNSPECIFIED;  ///< quality: whose limits to check
+    FeatureRemoval removal;  ///< features, remove-features: how they are found, and which go
     std::string server;
+    std::string tls_ca;      ///< file, or "system"
+    std::string tls_cert;    ///< file
+    std::string tls_key;     ///< file
+    std::string token_file;  ///< empty: the environment has the token
     std::string session;
     std::string representation;
     bool keep = false;

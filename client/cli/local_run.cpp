@@ -14,6 +14,7 @@
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/repair/repair_mesh.h"
 #include "wire/convert.h"
+#include "wire/features.h"
 #include "wire/json.h"
 #include "wire/representation.h"
 
@@ -70,7 +71,7 @@ template <class Options>
 Expected<Outcome> run_method(const Arguments& a, const Options& options, const MethodFunction& method, ProgressBar& progress,
                              const std::stop_token& stop) {
     if (Status valid = check_options(options); !valid) return valid.error();
-    const Expected<TriangleMesh> source = read_any(a.input, a.source_faces, a);
+    Expected<TriangleMesh> source = read_any(a.input, a.source_faces, a);
     if (!source) return source.error();
     ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
     const StopCallback on_stop(stop, [&context] { context.cancel(); });
@@ -79,7 +80,7 @@ Expected<Outcome> run_method(const Arguments& a, const Options& options, const M
     if (!result) return result.error();
     v1::Representation made = wire::describe("", "", source->face_count(), *result);
     TriangleMesh mesh = mesh_at(result->mrr, result->mrr.level_for(result->faces));
-    return Outcome{std::move(made), std::move(mesh), std::move(result->mrr)};
+    return Outcome{std::move(made), std::move(mesh), std::move(result->mrr), *std::move(source)};
 }
 
 Expected<Outcome> run_improve(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
@@ -123,6 +124,24 @@ Expected<Outcome> compare_meshes(const Arguments& a, ProgressBar& progress, cons
     return Outcome{*comparison, *std::move(mesh), {}};
 }
 
+Expected<Outcome> find_features(const Arguments& a) {
+    Expected<TriangleMesh> mesh = read_any(a.input, {}, a);
+    if (!mesh) return mesh.error();
+    const Expected<std::vector<ShapeFeature>> features = list_features(*mesh, a.removal.search);
+    if (!features) return features.error();
+    return Outcome{wire::to_proto(*features), *std::move(mesh), {}};
+}
+
+Expected<Outcome> take_features(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
+    const Expected<TriangleMesh> mesh = read_any(a.input, {}, a);
+    if (!mesh) return mesh.error();
+    ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
+    const StopCallback on_stop(stop, [&context] { context.cancel(); });
+    Expected<FeaturelessMesh> made = remove_features(*mesh, a.removal, context);
+    if (!made) return made.error();
+    return Outcome{wire::to_proto(*made, inspect(made->mesh)), std::move(made->mesh), {}};
+}
+
 Expected<Outcome> describe_representation(const Arguments& a) {
     Expected<Outcome> outcome = load_representation(a.input, a.faces);
     if (!outcome || a.verb != Verb::kQuality) return outcome;
@@ -156,6 +175,8 @@ Expected<Outcome> run_locally(const Arguments& a, ProgressBar& progress, const s
     if (Status valid = check_arguments(a); !valid) return valid.error();
     if (a.verb == Verb::kImprove) return run_improve(a, progress, stop);
     if (a.verb == Verb::kControl) return run_control(a, progress, stop);
+    if (a.verb == Verb::kFeatures) return find_features(a);
+    if (a.verb == Verb::kRemoveFeatures) return take_features(a, progress, stop);
     if (!a.against.empty()) return compare_meshes(a, progress, stop);
     if (is_representation_file(a.input)) return describe_representation(a);
     if (a.verb != Verb::kResolution) return describe_mesh(a);

@@ -40,12 +40,20 @@ std::string option_of(const std::string& field) {
                                                                       {"weld", "--weld"},
                                                                       {"repair", "--repair"},
                                                                       {"format", "--format"},
+                                                                      {"order", "--order"},
                                                                       {"server", "--server"},
                                                                       {"session", "--session"},
+                                                                      {"tls_ca", "--tls-ca"},
+                                                                      {"tls_cert", "--tls-cert"},
+                                                                      {"tls_key", "--tls-key"},
+                                                                      {"token_file", "--token-file"},
                                                                       {"representation", "--representation"},
                                                                       {"keep", "--keep"},
                                                                       {"source_faces", "--source-faces"},
                                                                       {"output", "-o"},
+                                                                      {"angle", "--angle"},
+                                                                      {"ids", "--id"},
+                                                                      {"max_diameter", "--max-diameter"},
                                                                       {"input", "IN"}};
     const auto found = options.find(field);
     return found == options.end() ? std::string() : std::string(found->second);
@@ -94,6 +102,12 @@ std::string nearest_note(std::uint32_t asked, const v1::Representation& made) {
     const std::string which = inside ? " is the nearest resolution found that keeps the bounds" : " is the nearest resolution";
     return "vsplit: note: " + grouped(asked) + " faces asked for, " + grouped(faces) + which + " (there are " +
            grouped(made.faces_min()) + " to " + grouped(made.faces_max()) + ")\n";
+}
+
+std::string on_chord_note(std::uint32_t edges) {
+    if (edges == 0) return "";
+    return "vsplit: " + std::to_string(edges) + (edges == 1 ? " side stays" : " sides stay") +
+           " straight: curved to the surface they would make bad elements of order 2\n";
 }
 
 }  // namespace vsplit::cli

@@ -21,4 +21,7 @@ namespace vsplit::cli {
 /// two faces).
 [[nodiscard]] std::string nearest_note(std::uint32_t asked, const v1::Representation& made);
 
+/// A line that says how many sides of second-order elements are straight so that none is bad; empty for none.
+[[nodiscard]] std::string on_chord_note(std::uint32_t edges);
+
 }  // namespace vsplit::cli

@@ -11,13 +11,15 @@
 namespace vsplit::cli {
 
 /// What `--json` prints and what the report tells.
-using Document = std::variant<v1::MeshSummary, v1::Representation, Comparison>;
+using Document =
+    std::variant<v1::MeshSummary, v1::Representation, Comparison, v1::ListFeaturesResponse, v1::RemoveFeaturesResponse>;
 
 /// What a verb came to.
 struct Outcome {
     Document document;
-    std::optional<TriangleMesh> mesh;  ///< what mesh files are written from; empty where they were downloaded as files
-    std::optional<MultiresMesh> mrr;   ///< what a .vsplit file is written from
+    std::optional<TriangleMesh> mesh;       ///< what mesh files are written from; empty where they were downloaded as files
+    std::optional<MultiresMesh> mrr;        ///< what a .vsplit file is written from
+    std::optional<TriangleMesh> surface{};  ///< what was worked on, where it is there: mid-side nodes are put on it
 };
 
 }  // namespace vsplit::cli

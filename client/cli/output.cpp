@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <system_error>
 
+#include "cli/message.h"
+#include "vsplit/base/execution_context.h"
+#include "vsplit/io/second_order.h"
 #include "vsplit/io/write_mesh.h"
 #include "vsplit/mrr/mrr_file.h"
+#include "vsplit/mrr/progressive_mesh.h"
 #include "wire/json.h"
 
 namespace vsplit::cli {
@@ -37,6 +42,21 @@ Expected<Output> plan_output(const std::string& path, const std::string& format_
     return error;
 }
 
+Expected<MidsideNodes> nodes_of(const Outcome& outcome) {
+    const ExecutionContext context;
+    if (outcome.surface) return midside_nodes(*outcome.mesh, *outcome.surface, context);
+    if (!outcome.mrr) return midside_nodes(*outcome.mesh, *outcome.mesh, context);
+    const TriangleMesh finest = mesh_at(*outcome.mrr, outcome.mrr->level_for(outcome.mrr->faces_max()));
+    return midside_nodes(*outcome.mesh, finest, context);
+}
+
+Status write_curved(const Outcome& outcome, const Output& output) {
+    const Expected<MidsideNodes> nodes = nodes_of(outcome);
+    if (!nodes) return nodes.error();
+    std::cerr << on_chord_note(nodes->on_chord);
+    return write_second_order_file(*outcome.mesh, *nodes, *output.format, output.path);
+}
+
 Status write_representation(const Outcome& outcome, const std::string& path) {
     const auto* made = std::get_if<v1::Representation>(&outcome.document);
     if (made == nullptr || !outcome.mrr) {
@@ -61,6 +81,9 @@ Expected<std::vector<Output>> plan_outputs(const Arguments& arguments) {
         if (Status possible = check_place(path); !possible) return possible.error();
         Expected<Output> output = plan_output(path, arguments.format);
         if (!output) return output.error();
+        if (arguments.order == 2 && output->format && !has_second_order(*output->format)) {
+            return write_second_order({}, {}, *output->format).error();
+        }
         outputs.push_back(*std::move(output));
     }
     return outputs;
@@ -70,9 +93,13 @@ bool wants_representation(const std::vector<Output>& outputs) {
     return std::any_of(outputs.begin(), outputs.end(), [](const Output& output) { return !output.format; });
 }
 
-Status write_outputs(const Outcome& outcome, const std::vector<Output>& outputs) {
+Status write_outputs(const Outcome& outcome, const std::vector<Output>& outputs, std::uint32_t order) {
     for (const Output& output : outputs) {
         if (output.format && !outcome.mesh) continue;  // the server sent the file
+        if (output.format && order == 2) {
+            if (Status written = write_curved(outcome, output); !written) return written;
+            continue;
+        }
         Status written = output.format ? write_mesh_file(*outcome.mesh, *output.format, output.path)
                                        : write_representation(outcome, output.path);
         if (!written) return written;

@@ -25,6 +25,7 @@ struct Output {
 [[nodiscard]] bool wants_representation(const std::vector<Output>& outputs);
 
 /// Writes what was not downloaded. \return INVALID_OPTION for a representation where there is but a mesh; FILE_ACCESS.
-[[nodiscard]] Status write_outputs(const Outcome& outcome, const std::vector<Output>& outputs);
+/// `order` is that of the elements; of order 2 stderr tells how many sides stay straight where some do.
+[[nodiscard]] Status write_outputs(const Outcome& outcome, const std::vector<Output>& outputs, std::uint32_t order);
 
 }  // namespace vsplit::cli

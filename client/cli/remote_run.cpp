@@ -6,6 +6,7 @@
 
 #include "cli/local_run.h"
 #include "cli/remote_session.h"
+#include "cli/server_access.h"
 #include "vsplit/client/mesh_receiver.h"
 #include "vsplit/client/meshing_client.h"
 #include "vsplit/method/method_options.h"
@@ -30,7 +31,9 @@ Status check_arguments(const Arguments& a) {
     if (Status valid = check_input(a); !valid) return valid;
     if (!a.against.empty()) return invalid("two meshes are compared without a server; leave --server out", "against");
     const bool method = a.verb == Verb::kImprove || a.verb == Verb::kControl;
-    if (!method && is_representation_file(a.input)) {
+    const bool features = a.verb == Verb::kFeatures || a.verb == Verb::kRemoveFeatures;
+    if (features && !a.representation.empty()) return invalid("features are those of the upload", "representation");
+    if (!method && !features && is_representation_file(a.input)) {
         return invalid("a .vsplit file is read without a server; leave --server out", "server");
     }
     if (a.verb == Verb::kResolution && a.session.empty()) return invalid("a session with a representation is needed", "session");
@@ -61,6 +64,10 @@ public:
             case Verb::kInfo:
             case Verb::kQuality:
                 return arguments_.representation.empty() ? describe_upload() : describe_representation();
+            case Verb::kFeatures:
+                return features();
+            case Verb::kRemoveFeatures:
+                return remove_features();
         }
         return Error{Cause::kInternal, "no such verb", ""};
     }
@@ -135,6 +142,12 @@ private:
                          ""};
         }
         std::optional<MultiresMesh> whole;
+        if (arguments_.order == 2) {
+            // The surface that mid-side nodes are put on is with the server.
+            if (Status downloaded = download(made->id(), made->faces()); !downloaded) return downloaded.error();
+            if (wants_representation(outputs_)) whole = receiver_.held();
+            return Outcome{*std::move(made), {}, std::move(whole)};
+        }
         if (wants_representation(outputs_)) whole = receiver_.held();
         return Outcome{*std::move(made), receiver_.mesh(), std::move(whole)};
     }
@@ -159,16 +172,43 @@ private:
             if (!measured) return measured.error();
             *summary.mutable_quality() = *std::move(measured);
         }
-        if (Status downloaded = download_upload(); !downloaded) return downloaded.error();
+        if (Status downloaded = download("", 0); !downloaded) return downloaded.error();
         return Outcome{std::move(summary), {}, {}};
     }
 
-    Status download_upload() {
+    Expected<Outcome> features() {
+        v1::ListFeaturesRequest request;
+        request.set_session(session_.id());
+        request.set_angle(arguments_.removal.search.angle);
+        Expected<v1::ListFeaturesResponse> list = client_.list_features(request, call_);
+        if (!list) return list.error();
+        if (Status downloaded = download("", 0); !downloaded) return downloaded.error();
+        return Outcome{*std::move(list), {}, {}};
+    }
+
+    Expected<Outcome> remove_features() {
+        const FeatureRemoval& removal = arguments_.removal;
+        v1::RemoveFeaturesRequest request;
+        request.set_session(session_.id());
+        request.set_angle(removal.search.angle);
+        request.mutable_ids()->Assign(removal.ids.begin(), removal.ids.end());
+        if (removal.max_diameter) request.set_max_diameter(*removal.max_diameter);
+        Expected<v1::RemoveFeaturesResponse> done = client_.remove_features(request, call_);
+        if (!done) return done.error();
+        if (Status downloaded = download("", 0); !downloaded) return downloaded.error();
+        return Outcome{*std::move(done), {}, {}};
+    }
+
+    /// Of a representation, or of the upload where its id is empty.
+    Status download(const std::string& representation, std::uint32_t faces_asked) {
         for (const Output& output : outputs_) {
             if (!output.format) continue;  // write_outputs says that there is no representation
             v1::DownloadMeshRequest request;
             request.set_session(session_.id());
             request.set_format(wire::to_proto(output.format));
+            request.set_order(arguments_.order);
+            request.set_representation(representation);
+            request.set_faces(faces_asked);
             const auto faces = client_.download_mesh(request, output.path, call_);
             if (!faces) return faces.error();
         }
@@ -202,9 +242,9 @@ private:
 Expected<Outcome> run_on_server(const Arguments& arguments, const std::vector<Output>& outputs, ProgressBar& progress,
                                 const std::stop_token& stop) {
     if (Status valid = check_arguments(arguments); !valid) return valid.error();
-    client::ConnectOptions connect;
-    connect.stop = stop;
-    Expected<client::MeshingClient> client = client::MeshingClient::connect(arguments.server, connect);
+    const Expected<client::ConnectOptions> connect = connect_options(arguments, stop);
+    if (!connect) return connect.error();
+    Expected<client::MeshingClient> client = client::MeshingClient::connect(arguments.server, *connect);
     if (!client) return client.error();
     const Expected<RemoteSession> session = RemoteSession::open(*client, arguments, progress, stop);
     if (!session) return session.error();

@@ -181,6 +181,39 @@ std::string text_of(const v1::Representation& r, bool detailed) {
     return text + details(r.quality(), detailed);
 }
 
+std::string kind_name(v1::ShapeFeature::Kind kind) {
+    switch (kind) {
+        case v1::ShapeFeature::THROUGH_HOLE:
+            return "through hole";
+        case v1::ShapeFeature::BLIND_HOLE:
+            return "blind hole";
+        case v1::ShapeFeature::BOSS:
+            return "boss";
+        default:
+            return "unknown";
+    }
+}
+
+std::string text_of(const v1::ListFeaturesResponse& list, bool /*detailed*/) {
+    if (list.features().empty()) return "no round hole or boss is recognised\n";
+    std::string text = right("id", 6) + "  " + left("kind", 14) + right("diameter", 12) + right("depth", 12) + right("faces", 8) +
+                       "  centre; axis\n";
+    for (const v1::ShapeFeature& f : list.features()) {
+        text += right(std::to_string(f.id()), 6) + "  " + left(kind_name(f.kind()), 14) + right(figure(f.diameter()), 12) +
+                right(figure(f.depth()), 12) + right(grouped(f.face_count()), 8) + "  " + point(f.centre()) + "; " +
+                point(f.axis()) + "\n";
+    }
+    return text;
+}
+
+std::string text_of(const v1::RemoveFeaturesResponse& done, bool detailed) {
+    std::string text = line("removed", counted(static_cast<std::uint64_t>(done.removed_size()), "feature", "features"));
+    text += line("new faces", grouped(done.source().faces() - done.first_new_face()) + ", from " +
+                                  std::to_string(done.first_new_face()) + " on, aimed at a size of " + figure(done.size()));
+    for (const v1::KeptFeature& kept : done.kept()) text += line("kept", std::to_string(kept.id()) + ": " + kept.reason());
+    return text + text_of(done.source(), detailed);
+}
+
 /// Both bounds, and the upper one as a share of the diagonal.
 std::string bounds_text(const DirectedDeviation& d, double diagonal) {
     const std::string share_of_diagonal = diagonal > 0 ? " (" + fixed(100 * d.upper / diagonal, 4) + " % of the diagonal)" : "";

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "service/guarded.h"
+#include "vsplit/base/execution_context.h"
+#include "vsplit/io/second_order.h"
 #include "vsplit/io/write_mesh.h"
 #include "wire/convert.h"
 #include "wire/error_table.h"
@@ -12,12 +15,38 @@
 namespace vsplit::rpc {
 namespace {
 
-Expected<service::FileMapping> write_file(const TriangleMesh& mesh, MeshFormat format) {
+Expected<service::FileMapping> map_file(std::string_view text) {
     Expected<service::TempFile> file = service::TempFile::create();
     if (!file) return file.error();
-    const std::string text = write_mesh(mesh, format);
     if (Status written = file->append(std::as_bytes(std::span(text))); !written) return written.error();
     return file->map();
+}
+
+/// Order 2 where there is a surface to put the nodes on.
+Expected<DownloadSource::File> write_file(const TriangleMesh& mesh, MeshFormat format, const TriangleMesh* surface) {
+    DownloadSource::File file;
+    std::string text;
+    if (surface == nullptr) {
+        text = write_mesh(mesh, format);
+    } else {
+        const Expected<MidsideNodes> nodes = midside_nodes(mesh, *surface, ExecutionContext({}, 1));
+        if (!nodes) return nodes.error();
+        Expected<std::string> written = write_second_order(mesh, *nodes, format);
+        if (!written) return written.error();
+        text = *std::move(written);
+        file.nodes_on_chord = nodes->on_chord;
+    }
+    Expected<service::FileMapping> mapped = map_file(text);
+    if (!mapped) return mapped.error();
+    file.mapping.emplace(*std::move(mapped));
+    return file;
+}
+
+/// Whether a download may be of that order. \return INVALID_OPTION, UNSUPPORTED (order).
+Status check_order(std::uint32_t order, MeshFormat format) {
+    if (order > 2) return Error{Cause::kInvalidOption, "order is " + std::to_string(order) + "; accepted are 1 and 2", "order"};
+    if (order == 2 && !has_second_order(format)) return write_second_order({}, {}, format).error();
+    return Done{};
 }
 
 const char* content_type(MeshFormat format) {
@@ -59,18 +88,21 @@ DownloadSource::DownloadSource(const service::PickedMesh& mesh, MeshFormat forma
     : mesh_(mesh.ref()), format_(format), prepared_(std::move(prepared)) {}
 
 Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service,
+                                                                             const service::Caller& caller,
                                                                              const v1::DownloadMeshRequest& request,
                                                                              const Wake& wake) {
     const Expected<std::optional<MeshFormat>> asked = wire::from_proto(request.format());
     if (!asked) return asked.error();
     const MeshFormat format = asked->value_or(MeshFormat::kStlBinary);
-    const Expected<service::SessionSnapshot> session = service.snapshot(request.session());
+    if (Status possible = check_order(request.order(), format); !possible) return possible.error();
+    const Expected<service::SessionSnapshot> session = service.snapshot(request.session(), caller);
     if (!session) return session.error();
     Expected<service::PickedMesh> mesh = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
     if (!mesh) return mesh.error();
     auto prepared = std::make_shared<Prepared>();
-    const bool taken = service.errand([prepared, wake, mesh = *mesh, format] {
-        prepared->put(service::guarded([&] { return write_file(*mesh.mesh(), format); }));
+    const std::shared_ptr<const TriangleMesh> surface = request.order() == 2 && session->source ? session->source->mesh : nullptr;
+    const bool taken = service.errand([prepared, wake, mesh = *mesh, format, surface] {
+        prepared->put(service::guarded([&] { return write_file(*mesh.mesh(), format, surface.get()); }));
         wake();
     });
     if (!taken) return Error{Cause::kUnavailable, "the server is shutting down", ""};
@@ -79,13 +111,14 @@ Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(ser
 
 DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& end) {
     if (!file_) {
-        std::optional<Expected<service::FileMapping>> prepared = prepared_->take();
+        std::optional<Expected<File>> prepared = prepared_->take();
         if (!prepared) return Step::kWait;
         if (!*prepared) {
             end = wire::to_status(prepared->error());
             return Step::kEnd;
         }
-        file_ = **std::move(prepared);
+        file_ = std::move((*prepared)->mapping);
+        nodes_on_chord_ = (*prepared)->nodes_on_chord;
     } else if (sent_ == file_->bytes().size()) {
         return Step::kEnd;
     }
@@ -104,6 +137,7 @@ void DownloadSource::fill(v1::MeshChunk& chunk) {
         chunk.set_file_name(file_name(mesh_, format_));
         chunk.set_content_type(content_type(format_));
         chunk.set_faces(mesh_.faces);
+        chunk.set_nodes_on_chord(nodes_on_chord_);
     }
     sent_ += part.size();
 }

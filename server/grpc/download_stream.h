@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,14 +19,20 @@ class DownloadSource final : public MessageSource<v1::MeshChunk> {
 public:
     static constexpr std::size_t kChunkBytes = std::size_t{256} * 1024;
 
-    /// \return NOT_FOUND, NOT_READY, INVALID_OPTION, UNAVAILABLE.
+    struct File {
+        std::optional<service::FileMapping> mapping;
+        std::uint32_t nodes_on_chord = 0;
+    };
+
+    /// \return NOT_FOUND, NOT_READY, INVALID_OPTION, UNSUPPORTED (order), UNAVAILABLE.
     [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
+                                                                       const service::Caller& caller,
                                                                        const v1::DownloadMeshRequest& request, const Wake& wake);
 
     [[nodiscard]] Step next(v1::MeshChunk& chunk, grpc::Status& end) override;
 
 private:
-    using Prepared = Mailbox<Expected<service::FileMapping>>;
+    using Prepared = Mailbox<Expected<File>>;
 
     DownloadSource(const service::PickedMesh& mesh, MeshFormat format, std::shared_ptr<Prepared> prepared);
 
@@ -35,6 +42,7 @@ private:
     const MeshFormat format_;
     const std::shared_ptr<Prepared> prepared_;
     std::optional<service::FileMapping> file_;
+    std::uint32_t nodes_on_chord_ = 0;
     std::size_t sent_ = 0;
 };
 

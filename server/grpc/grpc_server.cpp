@@ -5,22 +5,40 @@
 
 #include <utility>
 
+#include "grpc/tls_credentials.h"
+
 namespace vsplit::rpc {
 namespace {
 
 // For the last words of rpcs that have ended to reach their clients.
 constexpr std::chrono::milliseconds kFlushTime{200};
 
+constexpr int kMs = 1000;
+constexpr int kKeepaliveTimeoutMs = 20 * kMs;
+constexpr int kMostPingsMs = 10 * kMs;  // a client may ask so often for a sign of life
+
+void set_life(grpc::ServerBuilder& builder, const ConnectionLife& life) {
+    builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kMostPingsMs);
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+    if (life.keepalive.count() > 0) {
+        builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, static_cast<int>(life.keepalive.count()) * kMs);
+        builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
+    }
+    if (life.age.count() > 0) {
+        builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, static_cast<int>(life.age.count()) * kMs);
+    }
+}
+
 }  // namespace
 
-GrpcServer::GrpcServer(service::MeshingService& service, RpcObserver observer)
-    : ledger_(std::move(observer)), rpcs_(service, ledger_) {}
+GrpcServer::GrpcServer(service::MeshingService& service, const GrpcExtras& extras)
+    : ledger_(extras.observer, extras.gate, extras.limits.rpcs), rpcs_(service, ledger_) {}
 
 GrpcServer::~GrpcServer() { shutdown(std::chrono::milliseconds(0)); }
 
 Expected<std::unique_ptr<GrpcServer>> GrpcServer::start(const std::string& address, service::MeshingService& service,
                                                         const GrpcExtras& extras) {
-    std::unique_ptr<GrpcServer> server(new GrpcServer(service, extras.observer));
+    std::unique_ptr<GrpcServer> server(new GrpcServer(service, extras));
     if (Status listening = server->listen(address, extras); !listening) return listening.error();
     return server;
 }
@@ -31,8 +49,10 @@ Status GrpcServer::listen(const std::string& address, const GrpcExtras& extras) 
     grpc::ServerBuilder builder;
     // Otherwise two servers could share a port, and each get some of the other's rpcs.
     builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-    builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
-    builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port_);
+    builder.SetMaxReceiveMessageSize(extras.limits.message_bytes);
+    builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, extras.limits.streams);
+    set_life(builder, extras.life);
+    builder.AddListeningPort(address, credentials_of(extras.tls), &port_);
     builder.RegisterService(&rpcs_);
     for (grpc::Service* service : extras.services) builder.RegisterService(service);
     if (extras.meter != nullptr) builder.experimental().SetInterceptorCreators(interceptors_of(*extras.meter));
@@ -48,12 +68,12 @@ std::shared_ptr<grpc::Channel> GrpcServer::channel() {
     return server_->InProcessChannel(arguments);
 }
 
-void GrpcServer::drain(std::chrono::milliseconds grace) {
-    if (server_ == nullptr) return;
+bool GrpcServer::drain(std::chrono::milliseconds grace) {
+    if (server_ == nullptr) return true;
     server_->GetHealthCheckService()->SetServingStatus(false);
     // gRPC would wait for idle connections too, and many clients keep theirs until they call again.
     ledger_.close();
-    ledger_.wait_until_idle(grace);
+    return ledger_.wait_until_idle(grace);
 }
 
 void GrpcServer::shutdown(std::chrono::milliseconds grace) {

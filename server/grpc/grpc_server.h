@@ -10,24 +10,40 @@
 #include "grpc/meshing_rpcs.h"
 #include "grpc/rpc_ledger.h"
 #include "grpc/rpc_meter.h"
+#include "guard/gatekeeper.h"
+#include "guard/tls_files.h"
 #include "service/meshing_service.h"
 #include "vsplit/base/expected.h"
 
 namespace vsplit::rpc {
+
+/// What clients may use up.
+struct GrpcLimits {
+    std::size_t rpcs = 0;          ///< at a time; 0: no limit
+    int message_bytes = 16 << 20;  ///< of one message; larger meshes come by UploadMesh, in parts
+    int streams = 1000;            ///< rpcs of one connection at a time; more wait at the client
+};
+
+/// How long connections live.
+struct ConnectionLife {
+    std::chrono::seconds keepalive{0};  ///< of silence, then a client is asked for a sign of life and cut off without; 0: never
+    std::chrono::seconds age{0};        ///< then a client is told to connect anew when its rpcs are done; 0: never
+};
 
 /// What a server has beside the contract.
 struct GrpcExtras {
     RpcObserver observer{};
     RpcMeter* meter = nullptr;               ///< counts every rpc; must outlive the server
     std::vector<grpc::Service*> services{};  ///< served too; must outlive the server
+    guard::Gatekeeper* gate = nullptr;       ///< who may make rpcs of the contract; null: everybody; must outlive the server
+    GrpcLimits limits{};
+    ConnectionLife life{};
+    guard::TlsFiles tls{};  ///< none: plain
 };
 
 /// The gRPC front door: vsplit.v1.Meshing, health (of the server and of that service) and reflection.
 class GrpcServer {
 public:
-    /// Largest message it takes; larger meshes come by UploadMesh, in parts.
-    static constexpr int kMaxMessageBytes = 16 << 20;
-
     /// Serves at `address` ("host:port", port 0 for a free one) from now on. `service` must outlive the server.
     /// \return UNAVAILABLE when it cannot listen there.
     [[nodiscard]] static Expected<std::unique_ptr<GrpcServer>> start(const std::string& address, service::MeshingService& service,
@@ -44,14 +60,14 @@ public:
     /// Whether new rpcs are taken.
     [[nodiscard]] bool ready() const { return ledger_.admit().has_value(); }
 
-    /// Says NOT_SERVING, takes no more rpcs, and gives those that run `grace` to end.
-    void drain(std::chrono::milliseconds grace);
+    /// Says NOT_SERVING, takes no more rpcs, and gives those that run `grace` to end. Whether they did.
+    bool drain(std::chrono::milliseconds grace);
 
     /// drain, and cancels the rest. Once.
     void shutdown(std::chrono::milliseconds grace);
 
 private:
-    GrpcServer(service::MeshingService& service, RpcObserver observer);
+    GrpcServer(service::MeshingService& service, const GrpcExtras& extras);
 
     [[nodiscard]] Status listen(const std::string& address, const GrpcExtras& extras);
 

@@ -105,11 +105,12 @@ bool LevelParts::next_plain(v1::ProgressiveEvent& event) {
 }
 
 Expected<std::unique_ptr<MessageSource<v1::ProgressiveEvent>>> LevelSource::make(service::MeshingService& service,
+                                                                                 const service::Caller& caller,
                                                                                  const v1::SetResolutionRequest& request,
                                                                                  const Wake& wake) {
     const Expected<EncodingChoice> choice = wire::encoding_of(request);
     if (!choice) return choice.error();
-    const Expected<service::SessionSnapshot> session = service.snapshot(request.session());
+    const Expected<service::SessionSnapshot> session = service.snapshot(request.session(), caller);
     if (!session) return session.error();
     Expected<service::ResolutionPlan> plan = service::plan_resolution(
         *session, {request.representation(), request.faces_held(), request.faces(), request.resume_from()});

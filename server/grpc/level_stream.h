@@ -60,6 +60,7 @@ class LevelSource final : public MessageSource<v1::ProgressiveEvent> {
 public:
     /// \return NOT_FOUND, NOT_READY, INVALID_OPTION, UNAVAILABLE.
     [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
+                                                                       const service::Caller& caller,
                                                                        const v1::SetResolutionRequest& request, const Wake& wake);
 
     [[nodiscard]] Step next(v1::ProgressiveEvent& event, grpc::Status& end) override;

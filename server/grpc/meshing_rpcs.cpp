@@ -11,9 +11,11 @@
 #include "grpc/replies.h"
 #include "grpc/upload_stream.h"
 #include "service/guarded.h"
+#include "service/session_features.h"
 #include "vsplit/quality/mesh_quality.h"
 #include "wire/convert.h"
 #include "wire/error_table.h"
+#include "wire/features.h"
 
 namespace vsplit::rpc {
 namespace {
@@ -21,38 +23,40 @@ namespace {
 constexpr std::uint32_t kDefaultWorst = 20;
 constexpr std::uint32_t kMostWorst = 1000;
 
-void finish(grpc::ServerUnaryReactor* reactor, const RpcWatch& watch, const std::function<Status()>& answer) {
+void finish(grpc::ServerUnaryReactor* reactor, const RpcWatch& watch, const MeshingRpcs::Answer& answer) {
     const Status open = watch.admit();
-    const Status answered = open ? service::guarded(answer) : open;
+    const Status answered = open ? service::guarded([&] { return answer(watch.caller()); }) : open;
     const grpc::Status status = answered ? grpc::Status() : wire::to_status(answered.error());
     watch.finished(status);
     reactor->Finish(status);
 }
 
-Status create_session(service::MeshingService& service, const v1::CreateSessionRequest& request, v1::Session& response) {
+Status create_session(service::MeshingService& service, const service::Caller& caller, const v1::CreateSessionRequest& request,
+                      v1::Session& response) {
     const Expected<std::optional<MeshFormat>> format = wire::from_proto(request.format());
     if (!format) return format.error();
     const Expected<std::optional<RepairMode>> repair = wire::from_proto(request.repair());
     if (!repair) return repair.error();
     const Expected<service::SessionSnapshot> created =
         request.mesh().empty()
-            ? service.create_session()
-            : service.create_session(std::as_bytes(std::span(request.mesh())), {*format, request.weld(), *repair});
+            ? service.create_session(caller)
+            : service.create_session(std::as_bytes(std::span(request.mesh())), {*format, request.weld(), *repair}, caller);
     if (!created) return created.error();
     response = to_proto(*created);
     return Done{};
 }
 
-Status list_sessions(service::MeshingService& service, const v1::ListSessionsRequest& request,
+Status list_sessions(service::MeshingService& service, const service::Caller& caller, const v1::ListSessionsRequest& request,
                      v1::ListSessionsResponse& response) {
-    Expected<service::SessionPage> page = service.sessions().list(request.page_size(), request.page_token());
+    Expected<service::SessionPage> page = service.sessions().list(request.page_size(), request.page_token(), caller.owner);
     if (!page) return page.error();
     for (const service::SessionSnapshot& session : page->sessions) *response.add_sessions() = to_proto(session);
     response.set_next_page_token(std::move(page->next_page_token));
     return Done{};
 }
 
-Status get_quality(service::MeshingService& service, const v1::GetQualityRequest& request, v1::Quality& response) {
+Status get_quality(service::MeshingService& service, const service::Caller& caller, const v1::GetQualityRequest& request,
+                   v1::Quality& response) {
     const std::uint32_t worst = request.worst() == 0 ? kDefaultWorst : request.worst();
     if (worst > kMostWorst) {
         return Error{Cause::kInvalidOption,
@@ -60,12 +64,28 @@ Status get_quality(service::MeshingService& service, const v1::GetQualityRequest
     }
     const Expected<std::optional<QualityProfile>> profile = wire::from_proto(request.profile());
     if (!profile) return profile.error();
-    const Expected<service::SessionSnapshot> session = service.snapshot(request.session());
+    const Expected<service::SessionSnapshot> session = service.snapshot(request.session(), caller);
     if (!session) return session.error();
     const Expected<service::PickedMesh> picked = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
     if (!picked) return picked.error();
     response = wire::to_proto(picked->quality(), worst_faces(*picked->mesh(), worst));
     if (*profile) *response.mutable_profile() = wire::to_proto(check_profile(*picked->mesh(), **profile, worst));
+    return Done{};
+}
+
+Status list_features(service::MeshingService& service, const service::Caller& caller, const v1::ListFeaturesRequest& request,
+                     v1::ListFeaturesResponse& response) {
+    const auto features = service::list_features_of(service, request.session(), wire::search_of(request), caller);
+    if (!features) return features.error();
+    response = wire::to_proto(*features);
+    return Done{};
+}
+
+Status remove_features(service::MeshingService& service, const service::Caller& caller, const v1::RemoveFeaturesRequest& request,
+                       v1::RemoveFeaturesResponse& response) {
+    const auto done = service::remove_features_of(service, request.session(), wire::from_proto(request), caller);
+    if (!done) return done.error();
+    response = wire::to_proto(done->made, done->source->report);
     return Done{};
 }
 
@@ -80,67 +100,94 @@ grpc::ServerUnaryReactor* MeshingRpcs::answer_now(Context* context, const RpcWat
 grpc::ServerUnaryReactor* MeshingRpcs::answer_later(Context* context, const RpcWatch& watch, Submit submit, Answer answer) {
     grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
     const bool taken = (service_.*submit)([reactor, watch, answer = std::move(answer)] { finish(reactor, watch, answer); });
-    if (!taken) finish(reactor, watch, []() -> Status { return Error{Cause::kUnavailable, "the server is shutting down", ""}; });
+    if (!taken)
+        finish(reactor, watch, [](const service::Caller& /*any*/) -> Status {
+            return Error{Cause::kUnavailable, "the server is shutting down", ""};
+        });
     return reactor;
 }
 
 template <class Source, class Request>
-auto* MeshingRpcs::stream(const char* method, const Request& request) {
+auto* MeshingRpcs::stream(Context& context, const char* method, const Request& request) {
     using Message = typename Source::Message;
-    return PullStream<Message>::open(RpcWatch(ledger_, method, request.session()),
-                                     [&](const Wake& wake) { return Source::make(service_, request, wake); });
+    return PullStream<Message>::open(
+        RpcWatch(ledger_, context, method, request.session()),
+        [&](const service::Caller& caller, const Wake& wake) { return Source::make(service_, caller, request, wake); });
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::CreateSession(Context* context, const v1::CreateSessionRequest* request,
                                                      v1::Session* response) {
-    return answer_later(context, RpcWatch(ledger_, "CreateSession", ""), &service::MeshingService::intake,
-                        [this, request, response] { return create_session(service_, *request, *response); });
+    return answer_later(context, RpcWatch(ledger_, *context, "CreateSession", ""), &service::MeshingService::intake,
+                        [this, request, response](const service::Caller& caller) {
+                            return create_session(service_, caller, *request, *response);
+                        });
 }
 
-grpc::ServerReadReactor<v1::UploadMeshRequest>* MeshingRpcs::UploadMesh(Context* /*context*/, v1::Session* response) {
-    return new UploadStream(service_, RpcWatch(ledger_, "UploadMesh", ""), response);
+grpc::ServerReadReactor<v1::UploadMeshRequest>* MeshingRpcs::UploadMesh(Context* context, v1::Session* response) {
+    return new UploadStream(service_, RpcWatch(ledger_, *context, "UploadMesh", ""), response);
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::GetSession(Context* context, const v1::GetSessionRequest* request, v1::Session* response) {
-    return answer_now(context, RpcWatch(ledger_, "GetSession", request->session()), [this, request, response]() -> Status {
-        const Expected<service::SessionSnapshot> session = service_.snapshot(request->session());
-        if (!session) return session.error();
-        *response = to_proto(*session);
-        return Done{};
-    });
+    return answer_now(context, RpcWatch(ledger_, *context, "GetSession", request->session()),
+                      [this, request, response](const service::Caller& caller) -> Status {
+                          const Expected<service::SessionSnapshot> session = service_.snapshot(request->session(), caller);
+                          if (!session) return session.error();
+                          *response = to_proto(*session);
+                          return Done{};
+                      });
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::ListSessions(Context* context, const v1::ListSessionsRequest* request,
                                                     v1::ListSessionsResponse* response) {
-    return answer_later(context, RpcWatch(ledger_, "ListSessions", ""), &service::MeshingService::errand,
-                        [this, request, response] { return list_sessions(service_, *request, *response); });
+    return answer_later(context, RpcWatch(ledger_, *context, "ListSessions", ""), &service::MeshingService::errand,
+                        [this, request, response](const service::Caller& caller) {
+                            return list_sessions(service_, caller, *request, *response);
+                        });
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::DeleteSession(Context* context, const v1::DeleteSessionRequest* request,
                                                      google::protobuf::Empty* /*response*/) {
-    return answer_now(context, RpcWatch(ledger_, "DeleteSession", request->session()),
-                      [this, request] { return service_.sessions().remove(request->session()); });
+    return answer_now(
+        context, RpcWatch(ledger_, *context, "DeleteSession", request->session()),
+        [this, request](const service::Caller& caller) { return service_.sessions().remove(request->session(), caller.owner); });
 }
 
-MeshingRpcs::EventReactor* MeshingRpcs::Improve(Context* /*context*/, const v1::ImproveRequest* request) {
-    return stream<MethodSource>("Improve", *request);
+MeshingRpcs::EventReactor* MeshingRpcs::Improve(Context* context, const v1::ImproveRequest* request) {
+    return stream<MethodSource>(*context, "Improve", *request);
 }
 
-MeshingRpcs::EventReactor* MeshingRpcs::Control(Context* /*context*/, const v1::ControlRequest* request) {
-    return stream<MethodSource>("Control", *request);
+MeshingRpcs::EventReactor* MeshingRpcs::Control(Context* context, const v1::ControlRequest* request) {
+    return stream<MethodSource>(*context, "Control", *request);
 }
 
-MeshingRpcs::EventReactor* MeshingRpcs::SetResolution(Context* /*context*/, const v1::SetResolutionRequest* request) {
-    return stream<LevelSource>("SetResolution", *request);
+MeshingRpcs::EventReactor* MeshingRpcs::SetResolution(Context* context, const v1::SetResolutionRequest* request) {
+    return stream<LevelSource>(*context, "SetResolution", *request);
 }
 
-grpc::ServerWriteReactor<v1::MeshChunk>* MeshingRpcs::DownloadMesh(Context* /*context*/, const v1::DownloadMeshRequest* request) {
-    return stream<DownloadSource>("DownloadMesh", *request);
+grpc::ServerWriteReactor<v1::MeshChunk>* MeshingRpcs::DownloadMesh(Context* context, const v1::DownloadMeshRequest* request) {
+    return stream<DownloadSource>(*context, "DownloadMesh", *request);
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::GetQuality(Context* context, const v1::GetQualityRequest* request, v1::Quality* response) {
-    return answer_later(context, RpcWatch(ledger_, "GetQuality", request->session()), &service::MeshingService::errand,
-                        [this, request, response] { return get_quality(service_, *request, *response); });
+    return answer_later(
+        context, RpcWatch(ledger_, *context, "GetQuality", request->session()), &service::MeshingService::errand,
+        [this, request, response](const service::Caller& caller) { return get_quality(service_, caller, *request, *response); });
+}
+
+grpc::ServerUnaryReactor* MeshingRpcs::ListFeatures(Context* context, const v1::ListFeaturesRequest* request,
+                                                    v1::ListFeaturesResponse* response) {
+    return answer_later(context, RpcWatch(ledger_, *context, "ListFeatures", request->session()),
+                        &service::MeshingService::errand, [this, request, response](const service::Caller& caller) {
+                            return list_features(service_, caller, *request, *response);
+                        });
+}
+
+grpc::ServerUnaryReactor* MeshingRpcs::RemoveFeatures(Context* context, const v1::RemoveFeaturesRequest* request,
+                                                      v1::RemoveFeaturesResponse* response) {
+    return answer_later(context, RpcWatch(ledger_, *context, "RemoveFeatures", request->session()),
+                        &service::MeshingService::intake, [this, request, response](const service::Caller& caller) {
+                            return remove_features(service_, caller, *request, *response);
+                        });
 }
 
 }  // namespace vsplit::rpc

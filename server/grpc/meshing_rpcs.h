@@ -32,17 +32,21 @@ public:
     EventReactor* SetResolution(Context* context, const v1::SetResolutionRequest* request) override;
     grpc::ServerWriteReactor<v1::MeshChunk>* DownloadMesh(Context* context, const v1::DownloadMeshRequest* request) override;
     UnaryReactor* GetQuality(Context* context, const v1::GetQualityRequest* request, v1::Quality* response) override;
+    UnaryReactor* ListFeatures(Context* context, const v1::ListFeaturesRequest* request,
+                               v1::ListFeaturesResponse* response) override;
+    UnaryReactor* RemoveFeatures(Context* context, const v1::RemoveFeaturesRequest* request,
+                                 v1::RemoveFeaturesResponse* response) override;
+
+    using Answer = std::function<Status(const service::Caller& caller)>;
 
 private:
-    using Answer = std::function<Status()>;
-
     UnaryReactor* answer_now(Context* context, const RpcWatch& watch, const Answer& answer);
     /// On a thread of the pool that `submit` stands for.
     using Submit = bool (service::MeshingService::*)(service::WorkerPool::Task);
     UnaryReactor* answer_later(Context* context, const RpcWatch& watch, Submit submit, Answer answer);
 
     template <class Source, class Request>
-    auto* stream(const char* method, const Request& request);
+    auto* stream(Context& context, const char* method, const Request& request);
 
     service::MeshingService& service_;
     RpcLedger& ledger_;

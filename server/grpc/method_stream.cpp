@@ -10,18 +10,19 @@ namespace vsplit::rpc {
 
 using EventSourcePointer = std::unique_ptr<MessageSource<v1::ProgressiveEvent>>;
 
-Expected<EventSourcePointer> MethodSource::make(service::MeshingService& service, const v1::ImproveRequest& request,
-                                                const Wake& wake) {
-    return begin(service, request, wake);
+Expected<EventSourcePointer> MethodSource::make(service::MeshingService& service, const service::Caller& caller,
+                                                const v1::ImproveRequest& request, const Wake& wake) {
+    return begin(service, caller, request, wake);
 }
 
-Expected<EventSourcePointer> MethodSource::make(service::MeshingService& service, const v1::ControlRequest& request,
-                                                const Wake& wake) {
-    return begin(service, request, wake);
+Expected<EventSourcePointer> MethodSource::make(service::MeshingService& service, const service::Caller& caller,
+                                                const v1::ControlRequest& request, const Wake& wake) {
+    return begin(service, caller, request, wake);
 }
 
 template <class Request>
-Expected<EventSourcePointer> MethodSource::begin(service::MeshingService& service, const Request& request, const Wake& wake) {
+Expected<EventSourcePointer> MethodSource::begin(service::MeshingService& service, const service::Caller& caller,
+                                                 const Request& request, const Wake& wake) {
     const auto options = wire::from_proto(request.options());
     if (!options) return options.error();
     const Expected<EncodingChoice> choice = wire::encoding_of(request);
@@ -37,7 +38,7 @@ Expected<EventSourcePointer> MethodSource::begin(service::MeshingService& servic
         wake();
     };
     const service::MeshRef source{request.source().representation(), request.source().faces()};
-    Expected<service::RunningMethod> running = service.start(request.session(), {source, *options}, std::move(events));
+    Expected<service::RunningMethod> running = service.start(request.session(), {source, *options}, std::move(events), caller);
     if (!running) return running.error();
     return EventSourcePointer(new MethodSource(service, *std::move(running), std::move(news), *choice, wake));
 }

@@ -18,8 +18,10 @@ class MethodSource final : public MessageSource<v1::ProgressiveEvent> {
 public:
     /// Starts the method. \return what MeshingService::start returns, INVALID_OPTION.
     [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
+                                                                       const service::Caller& caller,
                                                                        const v1::ImproveRequest& request, const Wake& wake);
     [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
+                                                                       const service::Caller& caller,
                                                                        const v1::ControlRequest& request, const Wake& wake);
 
     [[nodiscard]] Step next(v1::ProgressiveEvent& event, grpc::Status& end) override;
@@ -34,7 +36,8 @@ private:
     };
 
     template <class Request>
-    [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> begin(service::MeshingService& service, const Request& request,
+    [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> begin(service::MeshingService& service,
+                                                                        const service::Caller& caller, const Request& request,
                                                                         const Wake& wake);
 
     MethodSource(service::MeshingService& service, service::RunningMethod running, std::shared_ptr<News> news,

@@ -24,8 +24,8 @@ public:
     using Source = MessageSource<Message>;
     using SourcePointer = std::unique_ptr<Source>;
 
-    /// A stream of what `make(wake)`, an Expected<SourcePointer>, gives. It lives until gRPC is done with it, and a little longer
-    /// where a wake is just under way.
+    /// A stream of what `make(caller, wake)`, an Expected<SourcePointer>, gives. It lives until gRPC is done with it, and a
+    /// little longer where a wake is just under way.
     template <class Make>
     static PullStream* open(RpcWatch watch, const Make& make) {
         const auto stream = std::make_shared<PullStream>(Private(), std::move(watch));
@@ -33,7 +33,7 @@ public:
         PullStream* const bare = stream.get();
         Expected<SourcePointer> source = service::guarded([&]() -> Expected<SourcePointer> {
             if (Status open = stream->watch_.admit(); !open) return open.error();
-            return make(stream->make_wake());
+            return make(stream->watch_.caller(), stream->make_wake());
         });
         if (source) {
             stream->source_ = *std::move(source);

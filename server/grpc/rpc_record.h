@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "grpc/call_origin.h"
+
 namespace vsplit::rpc {
 
 /// One rpc that ended.
@@ -15,6 +17,8 @@ struct RpcRecord {
     std::string session;      ///< as the client named it: any text; empty where there is none
     grpc::Status status;
     std::chrono::steady_clock::duration elapsed{};
+    std::string owner{};  ///< name of the token; empty where there is none
+    CallOrigin origin{};  ///< without its authorization
 };
 
 /// Hears of every rpc at its end, from whatever thread. Must not block.

@@ -37,7 +37,11 @@ Error changed(const char* field) {
 
 UploadStream::UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response)
     : service_(service), watch_(std::move(watch)), response_(response) {
-    StartRead(&part_);
+    if (const Status open = watch_.admit(); open) {
+        StartRead(&part_);
+    } else {
+        end(open);  // before the client has sent anything
+    }
 }
 
 void UploadStream::OnReadDone(bool ok) {
@@ -73,7 +77,7 @@ Status UploadStream::begin() {
     if (Status open = watch_.admit(); !open) return open;
     const Expected<service::UploadSettings> settings = settings_of(part_);
     if (!settings) return settings.error();
-    Expected<service::Upload> upload = service_.begin_upload(part_.session(), *settings);
+    Expected<service::Upload> upload = service_.begin_upload(part_.session(), *settings, watch_.caller());
     if (!upload) return upload.error();
     upload_ = *std::move(upload);
     first_.set_session(part_.session());

@@ -1,11 +1,13 @@
 #include "ops/logging.h"
 
 #include <grpc/support/log.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <string>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "service/quoted.h"
@@ -14,36 +16,149 @@
 namespace vsplit::ops {
 namespace {
 
+using Json = nlohmann::ordered_json;
+using Level = spdlog::level::level_enum;
+
+constexpr const char* kTime = "%Y-%m-%dT%H:%M:%S.%eZ";
+
+// Set once, before there are threads.
+LogOptions& options() {
+    static LogOptions held;
+    return held;
+}
+
 // For who looks for a fault in gRPC: what it calls an error is often a client that went away, and what matters to people is said
 // by the program in words of its own.
-void log_grpc(gpr_log_func_args* args) { spdlog::debug("grpc: {}", args->message); }
+void log_grpc(gpr_log_func_args* args) {
+    if (spdlog::should_log(spdlog::level::debug)) spdlog::debug("grpc: {}", args->message);
+}
+
+// Writes the record as a member list after what every line has. Bytes that are no UTF-8 become U+FFFD.
+class JsonFormatter final : public spdlog::formatter {
+public:
+    void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
+        time_.format(message, out);
+        const spdlog::string_view_t text = message.payload;
+        const bool object = text.size() > 0 && *text.data() == '{';
+        const std::string rest = object ? std::string(text.data() + 1, text.size() - 1)
+                                        : "\"event\":\"server\",\"message\":" + dump(std::string(text.data(), text.size())) + '}';
+        out.append(rest.data(), rest.data() + rest.size());
+        out.push_back('\n');
+    }
+
+    [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override { return std::make_unique<JsonFormatter>(); }
+
+    [[nodiscard]] static std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+private:
+    spdlog::pattern_formatter time_{std::string("{\"time\":\"") + kTime + "\",\"level\":\"%l\",", spdlog::pattern_time_type::utc,
+                                    ""};
+};
+
+void write(Level level, const Json& json) {
+    spdlog::default_logger_raw()->log(level, spdlog::string_view_t(JsonFormatter::dump(json)));
+}
+
+double milliseconds(std::chrono::steady_clock::duration time) {
+    constexpr double kTenths = 10;
+    return std::round(std::chrono::duration<double, std::milli>(time).count() * kTenths) / kTenths;
+}
+
+void add_origin(Json& json, const std::string& request, const wire::TraceContext& trace, const std::string& parent,
+                const std::string& peer) {
+    json["request"] = request;
+    json["trace"] = trace.trace_id;
+    json["span"] = trace.span_id;
+    if (!parent.empty()) json["parent_span"] = parent;
+    if (!peer.empty()) json["peer"] = peer;
+}
+
+Json rpc_json(const rpc::RpcRecord& record) {
+    Json json{{"event", "rpc"}, {"method", std::string(record.method)}, {"code", "OK"}, {"ms", milliseconds(record.elapsed)}};
+    add_origin(json, record.origin.request_id, record.origin.trace, record.origin.parent_span, record.origin.peer);
+    constexpr std::size_t kMost = 64;
+    if (!record.session.empty()) json["session"] = record.session.substr(0, kMost);
+    if (!record.owner.empty()) json["token"] = record.owner;
+    if (record.status.ok()) return json;
+    const Error error = wire::from_status(record.status);
+    json["code"] = std::string(cause_name(error.cause));
+    json["message"] = error.message;
+    return json;
+}
 
 }  // namespace
 
-void start_logging(spdlog::level::level_enum level) {
+void start_logging(const LogOptions& wanted) {
+    options() = wanted;
     auto logger = std::make_shared<spdlog::logger>("vsplitd", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-    logger->set_level(level);
-    logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %l %v", spdlog::pattern_time_type::utc);
+    logger->set_level(wanted.level == "error" ? spdlog::level::err : spdlog::level::from_str(wanted.level));
+    if (wanted.json) {
+        logger->set_formatter(std::make_unique<JsonFormatter>());
+    } else {
+        logger->set_pattern(std::string(kTime) + " %l %v", spdlog::pattern_time_type::utc);
+    }
     logger->flush_on(spdlog::level::debug);
     spdlog::set_default_logger(std::move(logger));
     gpr_set_log_function(log_grpc);
 }
 
 void log_rpc(const rpc::RpcRecord& record) {
-    const double ms = std::chrono::duration<double, std::milli>(record.elapsed).count();
+    if (!spdlog::should_log(Level::info)) return;
+    if (options().json) return write(Level::info, rpc_json(record));
+    const double ms = milliseconds(record.elapsed);
     const std::string session = record.session.empty() ? "-" : service::quoted(record.session);
     if (record.status.ok()) {
-        spdlog::info("rpc {} OK {:.1f} ms session {}", record.method, ms, session);
+        spdlog::info("rpc {} OK {:.1f} ms session {} request {}", record.method, ms, session, record.origin.request_id);
         return;
     }
     const Error error = wire::from_status(record.status);
-    spdlog::info("rpc {} {} {:.1f} ms session {}: {}", record.method, cause_name(error.cause), ms, session, error.message);
+    spdlog::info("rpc {} {} {:.1f} ms session {} request {}: {}", record.method, cause_name(error.cause), ms, session,
+                 record.origin.request_id, error.message);
 }
 
 void log_http(const rest::HttpRecord& record) {
-    const double ms = std::chrono::duration<double, std::milli>(record.elapsed).count();
-    spdlog::info("http {} {} {} {:.1f} ms in {} out {}", service::quoted(record.method), service::quoted(record.target),
-                 record.status, ms, record.bytes_in, record.bytes_out);
+    if (!spdlog::should_log(Level::info)) return;
+    const double ms = milliseconds(record.elapsed);
+    const std::string target = service::quoted(record.target);
+    if (options().json) {
+        Json json{{"event", "http"},
+                  {"method", service::quoted(record.method)},
+                  {"target", target},
+                  {"status", record.status},
+                  {"ms", ms},
+                  {"bytes_in", record.bytes_in},
+                  {"bytes_out", record.bytes_out}};
+        add_origin(json, record.mark.id, record.mark.trace, record.mark.parent_span, record.mark.peer);
+        return write(Level::info, json);
+    }
+    spdlog::info("http {} {} {} {:.1f} ms in {} out {} request {}", service::quoted(record.method), target, record.status, ms,
+                 record.bytes_in, record.bytes_out, record.mark.id);
+}
+
+void log_job(const service::JobRecord& record) {
+    if (options().slow_job <= 0 || record.seconds < options().slow_job) return;
+    const std::string outcome(record.outcome ? cause_name(*record.outcome) : "OK");
+    if (options().json) {
+        return write(Level::warn, Json{{"event", "slow_job"},
+                                       {"method", std::string(record.method)},
+                                       {"code", outcome},
+                                       {"seconds", record.seconds},
+                                       {"waited", record.waited},
+                                       {"faces_in", record.faces_in},
+                                       {"faces_out", record.faces_out},
+                                       {"session", record.session},
+                                       {"request", record.request_id}});
+    }
+    spdlog::warn("slow job: {} {} {:.1f} s after {:.1f} s of waiting, {} faces in, {} out, session {} request {}", record.method,
+                 outcome, record.seconds, record.waited, record.faces_in, record.faces_out, record.session, record.request_id);
+}
+
+void log_reload(const std::string& file, const Status& read) {
+    if (read) {
+        spdlog::info("{} was read anew", file);
+    } else {
+        spdlog::error("{} was changed and cannot be used, what it said before holds: {}", file, read.error().message);
+    }
 }
 
 }  // namespace vsplit::ops

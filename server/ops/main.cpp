@@ -16,9 +16,14 @@
 #include <vector>
 
 #include "grpc/grpc_server.h"
+#include "guard/gatekeeper.h"
+#include "ops/exposure.h"
 #include "ops/listen_address.h"
 #include "ops/logging.h"
 #include "ops/metrics.h"
+#include "ops/new_token.h"
+#include "ops/page.h"
+#include "ops/self_check.h"
 #include "ops/server_options.h"
 #include "rest/openapi.h"
 #include "rest/rest_server.h"
@@ -27,8 +32,6 @@
 
 namespace vsplit::ops {
 namespace {
-
-constexpr std::chrono::seconds kGrace{5};
 
 // For the last bytes of answers to reach clients that read them.
 constexpr std::chrono::seconds kFlushTime{1};
@@ -68,53 +71,107 @@ int fail(const std::string& message) {
     return 1;
 }
 
-rest::Backend backend_of(rpc::GrpcServer& server, service::MeshingService& service, Metrics& metrics) {
+// What holds for every call, and must outlive the doors.
+struct Guard {
+    std::shared_ptr<rest::TlsContexts> tls;  // null: plain
+    std::unique_ptr<guard::Gatekeeper> gate;
+};
+
+Expected<Guard> make_guard(const ServerOptions& options) {
+    Guard made;
+    if (!options.tls.cert.empty()) {
+        Expected<std::shared_ptr<rest::TlsContexts>> tls = rest::TlsContexts::open(options.tls, log_reload);
+        if (!tls) return tls.error();
+        made.tls = *std::move(tls);
+    }
+    std::unique_ptr<guard::TokenBook> tokens;
+    if (!options.token_file.empty()) {
+        Expected<std::unique_ptr<guard::TokenBook>> opened = guard::TokenBook::open(options.token_file, log_reload);
+        if (!opened) return opened.error();
+        tokens = *std::move(opened);
+    }
+    made.gate = std::make_unique<guard::Gatekeeper>(std::move(tokens), options.max_request_rate);
+    return made;
+}
+
+rpc::GrpcExtras extras_of(const ServerOptions& options, const Guard& guard, Metrics& metrics) {
+    rpc::GrpcExtras extras;
+    extras.observer = log_rpc;
+    extras.meter = &metrics;
+    extras.gate = guard.gate.get();
+    extras.tls = options.tls;
+    extras.limits.rpcs = options.max_rpcs;
+    extras.limits.message_bytes = static_cast<int>(options.max_message_bytes);
+    extras.limits.streams = static_cast<int>(options.max_streams);
+    extras.life = {std::chrono::seconds(options.keepalive), std::chrono::seconds(options.max_connection_age)};
+    return extras;
+}
+
+rest::Backend backend_of(rpc::GrpcServer& server, service::MeshingService& service, Metrics& metrics, guard::Gatekeeper& gate) {
     rest::Backend backend;
     backend.channel = server.channel();
     backend.descriptor_sets = {rest::contract_descriptors()};
     backend.services = {v1::Meshing::service_full_name()};
     backend.ready = [&server] { return server.ready(); };
+    backend.admit = rest::admission_of(gate);
     backend.metrics = [&metrics, &service] { return metrics.text(service.load()); };
+    backend.pages = page_files();
     backend.version = VSPLIT_VERSION;
     return backend;
 }
 
 // Null where --http is off.
 Expected<std::unique_ptr<rest::RestServer>> start_rest(const ServerOptions& options, const std::optional<ListenAddress>& address,
-                                                       rest::Backend backend, Metrics& metrics) {
+                                                       rest::Backend backend, Metrics& metrics,
+                                                       std::shared_ptr<rest::TlsContexts> tls) {
     if (!address) return std::unique_ptr<rest::RestServer>();
     const auto observe = [&metrics](const rest::HttpRecord& record) {
         metrics.http_ended(record);
         log_http(record);
     };
-    return rest::RestServer::start(address->host, address->port, std::move(backend), options.rest, observe);
+    return rest::RestServer::start(address->host, address->port, std::move(backend), options.rest, observe, std::move(tls));
 }
 
-void drain(rpc::GrpcServer& server, rest::RestServer* rest) {
+void drain(rpc::GrpcServer& server, rest::RestServer* rest, std::chrono::seconds grace) {
     if (rest != nullptr) rest->drain();
-    server.drain(kGrace);
+    if (!server.drain(grace)) spdlog::warn("cut off what was not done after {} s", grace.count());
     if (rest != nullptr) rest->shutdown(kFlushTime);
     server.shutdown(std::chrono::milliseconds(0));
 }
 
 int serve(const ServerOptions& options, const ListenAddress& address, const std::optional<ListenAddress>& http) {
+    const Expected<Guard> guard = make_guard(options);
+    if (!guard) return fail(guard.error().message);
     Metrics metrics;
-    service::MeshingService service(options.service);
+    service::ServiceOptions service_options = options.service;
+    service_options.job_observer = [&metrics](const service::JobRecord& record) {
+        metrics.job_ended(record);
+        log_job(record);
+    };
+    service::MeshingService service(service_options);
     Expected<std::unique_ptr<rpc::GrpcServer>> server =
-        rpc::GrpcServer::start(address.text(address.port), service, {log_rpc, &metrics, {}});
+        rpc::GrpcServer::start(address.text(address.port), service, extras_of(options, *guard, metrics));
     if (!server) return fail(server.error().message + ": " + why_not_listening(address));
     const Expected<std::unique_ptr<rest::RestServer>> rest =
-        start_rest(options, http, backend_of(**server, service, metrics), metrics);
+        start_rest(options, http, backend_of(**server, service, metrics, *guard->gate), metrics, guard->tls);
     if (!rest) return fail(rest.error().message);
     std::cout << "vsplitd listening on " << address.text(std::to_string((*server)->port()));
-    if (*rest) std::cout << " and http://" << http->text(std::to_string((*rest)->port()));
+    const std::string scheme = guard->tls == nullptr ? "http://" : "https://";
+    if (*rest) std::cout << " and " << scheme << http->text(std::to_string((*rest)->port()));
     std::cout << std::endl;
     const int signal = wait_for_stop_signal();
-    spdlog::info("signal {}: draining for at most {} s; a second signal ends it at once", signal, kGrace.count());
+    spdlog::info("signal {}: draining for at most {} s; a second signal ends it at once", signal, options.drain);
     std::thread([] { std::_Exit(128 + wait_for_stop_signal()); }).detach();
-    drain(**server, rest->get());
+    drain(**server, rest->get(), std::chrono::seconds(options.drain));
     service.shutdown();
     spdlog::info("stopped");
+    return 0;
+}
+
+int print_new_token(const std::string& request) {
+    const Expected<NewToken> made = make_token(request);
+    if (!made) return fail(made.error().message);
+    std::cout << made->token << '\n' << made->line << '\n';
     return 0;
 }
 
@@ -134,6 +191,7 @@ int run(int argc, const char* const* argv) {
     if (const int* status = std::get_if<int>(&parsed)) return *status;
     const auto& options = std::get<ServerOptions>(parsed);
     if (options.print_openapi) return print_openapi();
+    if (!options.new_token.empty()) return print_new_token(options.new_token);
     const Expected<ListenAddress> address = parse_listen_address("listen", options.listen);
     if (!address) return fail(address.error().message);
     std::optional<ListenAddress> http;
@@ -142,9 +200,15 @@ int run(int argc, const char* const* argv) {
         if (!at) return fail(at.error().message);
         http = *at;
     }
+    if (Status safe = options.check ? Status(Done{}) : check_exposure(options, *address, http); !safe)
+        return fail(safe.error().message);
+    if (options.check) {
+        const Status serves = check_server(*address, options.tls);
+        return serves ? 0 : fail(serves.error().message);
+    }
     block_stop_signals();
     return_large_memory();
-    start_logging(options.log_level);
+    start_logging({options.log_level, options.log_format == "json", options.slow_job});
     return serve(options, *address, http);
 }
 

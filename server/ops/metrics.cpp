@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "ops/process_use.h"
+
 namespace vsplit::ops {
 namespace {
 
@@ -44,9 +46,25 @@ Metrics::Metrics()
       requests_(counters(registry_, "vsplit_http_requests_total", "HTTP requests that ended; status 0 had no answer")),
       http_in_(counters(registry_, "vsplit_http_bytes_total", "Bytes of HTTP bodies").Add({{"direction", "in"}})),
       http_out_(counters(registry_, "vsplit_http_bytes_total", "Bytes of HTTP bodies").Add({{"direction", "out"}})),
+      jobs_(counters(registry_, "vsplit_jobs_total", "Methods that a worker was at, by outcome")),
+      job_seconds_(prometheus::BuildHistogram().Name("vsplit_job_seconds").Help("How long methods ran").Register(registry_)),
+      job_waited_(
+          prometheus::BuildHistogram().Name("vsplit_job_wait_seconds").Help("How long methods waited").Register(registry_)),
+      job_faces_(counters(registry_, "vsplit_job_faces_total", "Faces that methods were given, of those that succeeded")),
       sessions_(gauge(registry_, "vsplit_sessions", "Sessions that are held")),
       methods_running_(gauge(registry_, "vsplit_jobs_running", "Methods that a worker is at")),
-      methods_waiting_(gauge(registry_, "vsplit_jobs_queued", "Methods that wait")) {}
+      methods_waiting_(gauge(registry_, "vsplit_jobs_queued", "Methods that wait")),
+      resident_(gauge(registry_, "process_resident_memory_bytes", "Memory of the process that is in RAM")),
+      descriptors_(gauge(registry_, "process_open_fds", "Open file descriptors")),
+      most_descriptors_(gauge(registry_, "process_max_fds", "Most open file descriptors")),
+      started_(gauge(registry_, "process_start_time_seconds", "When the process began, seconds since 1970")) {
+    started_.SetToCurrentTime();
+    // A label's values are known from the first scrape on: a rate over a counter that appears late misses its first step.
+    for (const char* method : {"Improve", "Control"}) {
+        jobs_.Add({{"method", method}, {"outcome", "OK"}});
+        job_faces_.Add({{"method", method}});
+    }
+}
 
 void Metrics::rpc_began(std::string_view /*method*/) { running_.Increment(); }
 
@@ -67,10 +85,23 @@ void Metrics::http_ended(const rest::HttpRecord& record) {
     http_out_.Increment(static_cast<double>(record.bytes_out));
 }
 
+void Metrics::job_ended(const service::JobRecord& record) {
+    const std::string method(record.method);
+    const std::string outcome(record.outcome ? cause_name(*record.outcome) : "OK");
+    jobs_.Add({{"method", method}, {"outcome", outcome}}).Increment();
+    job_seconds_.Add({{"method", method}}, kSeconds).Observe(record.seconds);
+    job_waited_.Add({{"method", method}}, kSeconds).Observe(record.waited);
+    if (!record.outcome) job_faces_.Add({{"method", method}}).Increment(record.faces_in);
+}
+
 std::string Metrics::text(const service::ServiceLoad& load) {
     sessions_.Set(static_cast<double>(load.sessions));
     methods_running_.Set(static_cast<double>(load.methods_running));
     methods_waiting_.Set(static_cast<double>(load.methods_waiting));
+    const ProcessUse use = process_use();
+    resident_.Set(static_cast<double>(use.resident_bytes));
+    descriptors_.Set(static_cast<double>(use.descriptors));
+    most_descriptors_.Set(static_cast<double>(use.most_descriptors));
     return prometheus::TextSerializer().Serialize(registry_.Collect());
 }
 

@@ -21,7 +21,8 @@ namespace vsplit::ops {
 ///
 /// vsplit_rpc_seconds (histogram by method) and vsplit_rpcs_total (by method and code) count an rpc once, whichever door it came
 /// by; vsplit_message_bytes_total (by direction) its messages. vsplit_http_requests_total (by status) and vsplit_http_bytes_total
-/// (bodies, by direction) are HTTP's own.
+/// (bodies, by direction) are HTTP's own. vsplit_jobs_total (by method and outcome), vsplit_job_seconds, vsplit_job_wait_seconds
+/// and vsplit_job_faces_total (by method) are of methods that a worker was at. process_* are those that Prometheus' clients have.
 class Metrics final : public rpc::RpcMeter {
 public:
     Metrics();
@@ -31,6 +32,7 @@ public:
     void message_in(std::size_t bytes) override;
     void message_out(std::size_t bytes) override;
     void http_ended(const rest::HttpRecord& record);
+    void job_ended(const service::JobRecord& record);
 
     /// Everything in Prometheus' text format, with the load of this moment.
     [[nodiscard]] std::string text(const service::ServiceLoad& load);
@@ -45,9 +47,17 @@ private:
     prometheus::Family<prometheus::Counter>& requests_;
     prometheus::Counter& http_in_;
     prometheus::Counter& http_out_;
+    prometheus::Family<prometheus::Counter>& jobs_;
+    prometheus::Family<prometheus::Histogram>& job_seconds_;
+    prometheus::Family<prometheus::Histogram>& job_waited_;
+    prometheus::Family<prometheus::Counter>& job_faces_;
     prometheus::Gauge& sessions_;
     prometheus::Gauge& methods_running_;
     prometheus::Gauge& methods_waiting_;
+    prometheus::Gauge& resident_;
+    prometheus::Gauge& descriptors_;
+    prometheus::Gauge& most_descriptors_;
+    prometheus::Gauge& started_;
 };
 
 }  // namespace vsplit::ops

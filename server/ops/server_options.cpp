@@ -1,11 +1,13 @@
 #include "ops/server_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
-#include <cstdint>
+#include <cstdlib>
 #include <iostream>
-#include <map>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace vsplit::ops {
 namespace {
@@ -14,58 +16,204 @@ namespace {
 constexpr std::int64_t kLongestTtl = std::int64_t{100} * 366 * 24 * 3600;
 
 constexpr unsigned kMostThreads = 1024;
-
-const std::map<std::string, spdlog::level::level_enum> kLevels{{"debug", spdlog::level::debug},
-                                                               {"info", spdlog::level::info},
-                                                               {"warning", spdlog::level::warn},
-                                                               {"error", spdlog::level::err},
-                                                               {"off", spdlog::level::off}};
+constexpr std::uint32_t kDay = 24 * 3600;
+constexpr std::uint32_t kMostMessageBytes = std::uint32_t{1} << 30;
 
 bool takes_free_port(std::string_view listen) { return listen.size() > 2 && listen.substr(listen.size() - 2) == ":0"; }
 
-void add_limits(CLI::App& app, service::Limits& limits) {
-    app.add_option("--max-upload-bytes", limits.upload_bytes, "Bytes of an uploaded file")->check(CLI::PositiveNumber);
-    app.add_option("--max-faces", limits.faces, "Faces of an uploaded mesh")->check(CLI::PositiveNumber);
-    app.add_option("--max-faces-subdivided", limits.faces_subdivided, "Faces of a mesh after subdivision")
-        ->check(CLI::PositiveNumber);
-    app.add_option("--max-sessions", limits.sessions, "Sessions at a time")->check(CLI::PositiveNumber);
-    app.add_option("--max-representations", limits.representations, "Representations of a session")->check(CLI::PositiveNumber);
-    app.add_option("--max-waiting", limits.waiting_jobs, "Requests that wait in a session while one runs");
+// What there is to say on the command line, and where it goes.
+class Parser {
+public:
+    Parser() {
+        app_.option_defaults()->always_capture_default();
+        app_.set_version_flag("--version", "vsplitd " VSPLIT_VERSION);
+        app_.set_config("--config", "", "Read options from this file: TOML, a line `name = value` for each --name");
+        app_.allow_config_extras(CLI::config_extras_mode::error);
+        add_doors();
+        add_guard();
+        add_work();
+        add_limits();
+        add_life();
+        app_.footer(
+            "What the command line leaves out is taken from the environment, VSPLITD_LISTEN for --listen and so on,\n"
+            "and what that leaves out from the file of --config.");
+    }
+
+    CLI::App& app() { return app_; }
+    [[nodiscard]] bool print_config() const { return print_config_; }
+
+    ServerOptions options() {
+        options_.service.session_ttl = std::chrono::seconds(ttl_);
+        std::erase(options_.rest.cors_origins, "");  // how a file says that there is none
+        // Who asks for a free port wants to be in nobody's way.
+        if (http_->empty() && takes_free_port(options_.listen)) options_.http = "127.0.0.1:0";
+        return options_;
+    }
+
+private:
+    void add_doors() {
+        app_.add_option("--listen", options_.listen, "HOST:PORT to serve gRPC at; port 0 takes a free one");
+        http_ =
+            app_.add_option("--http", options_.http, "HOST:PORT to serve REST at, or off; a free port where --listen takes one");
+        app_.add_option(
+                "--cors-origin", options_.rest.cors_origins,
+                "Origin of web pages that may use REST, e.g. https://example.org, or *; several are allowed. Default: none")
+            ->delimiter(',')
+            ->default_str("")
+            ->option_text("ORIGIN ...");
+        app_.add_flag("--print-openapi", options_.print_openapi, "Print the OpenAPI document and end")->configurable(false);
+        app_.add_flag("--check", options_.check, "Ask the server at --listen whether it serves; ends with 0 if so")
+            ->configurable(false);
+        app_.add_flag("--print-config", print_config_, "Print what holds, as a file for --config, and end")->configurable(false);
+    }
+
+    void add_guard() {
+        constexpr const char* kGroup = "Access";
+        app_.add_option("--tls-cert", options_.tls.cert, "Certificate (PEM) for TLS at both doors; read again when it changes")
+            ->group(kGroup);
+        app_.add_option("--tls-key", options_.tls.key, "Its private key (PEM)")->group(kGroup);
+        app_.add_option("--tls-client-ca", options_.tls.client_ca,
+                        "Authorities (PEM) one of which must have signed the certificate that a client shows: mutual TLS")
+            ->group(kGroup);
+        app_.add_option("--token-file", options_.token_file,
+                        "Tokens that calls must carry, a line each as --new-token prints it; read again when it changes")
+            ->group(kGroup);
+        app_.add_option("--new-token", options_.new_token, "Make a token NAME:read-only or NAME:read-write, print it, and end")
+            ->configurable(false)
+            ->group(kGroup);
+        app_.add_flag("--insecure", options_.insecure, "Listen beyond this machine without TLS or without tokens")->group(kGroup);
+    }
+
+    void add_work() {
+        app_.add_option("--workers", options_.service.workers, "Methods that run at a time; 0: one a core")
+            ->check(CLI::Range(0U, kMostThreads));
+        app_.add_option("--threads", options_.service.threads, "Threads of one method; 0: all cores")
+            ->check(CLI::Range(0U, kMostThreads));
+        app_.add_option("--session-ttl", ttl_, "Seconds that an unused session lives")
+            ->check(CLI::Range(std::int64_t{1}, kLongestTtl));
+        app_.add_option("--log-level", options_.log_level, "What is logged to stderr")
+            ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}).description(""))
+            ->option_text("LEVEL=info: debug, info, warning, error or off");
+        app_.add_option("--log-format", options_.log_format, "How: lines of text, or a JSON object a line")
+            ->check(CLI::IsMember({"text", "json"}).description(""))
+            ->option_text("text|json");
+        app_.add_option("--slow-job", options_.slow_job, "Seconds; a method that takes longer is logged as a warning. 0: none")
+            ->check(CLI::Range(0.0, 1e9));
+    }
+
+    void add_limits() {
+        constexpr const char* kGroup = "Limits";
+        service::Limits& limits = options_.service.limits;
+        const auto add = [this](const char* name, auto& value, const char* help) {
+            return app_.add_option(name, value, help)->group(kGroup)->check(CLI::PositiveNumber);
+        };
+        add("--max-upload-bytes", limits.upload_bytes, "Bytes of an uploaded file");
+        add("--max-faces", limits.faces, "Faces of an uploaded mesh");
+        add("--max-faces-subdivided", limits.faces_subdivided, "Faces of a mesh after subdivision");
+        add("--max-sessions", limits.sessions, "Sessions at a time");
+        add("--max-sessions-by-client", limits.sessions_by_client, "Sessions of one token at a time");
+        add("--max-representations", limits.representations, "Representations of a session");
+        app_.add_option("--max-waiting", limits.waiting_jobs, "Requests that wait in a session while one runs")->group(kGroup);
+        add("--max-queued", limits.queued_jobs, "Requests that wait in all sessions together");
+        add("--max-rpcs", options_.max_rpcs, "Rpcs at a time");
+        add("--max-streams", options_.max_streams, "Rpcs of one gRPC connection at a time; more wait at the client")
+            ->check(CLI::Range(1U, std::uint32_t{1} << 30));
+        add("--max-message-bytes", options_.max_message_bytes, "Bytes of one gRPC message")
+            ->check(CLI::Range(std::uint32_t{1} << 16, kMostMessageBytes));
+        add("--max-connections", options_.rest.limits.connections, "HTTP connections at a time");
+        app_.add_option("--max-request-rate", options_.max_request_rate,
+                        "Requests a second of one client, a token or else an address, and twice as many at once; 0: no limit")
+            ->group(kGroup)
+            ->check(CLI::Range(0.0, 1e9));
+    }
+
+    void add_life() {
+        app_.add_option("--drain", options_.drain, "Seconds that what runs has to end after SIGTERM")
+            ->check(CLI::Range(0U, kDay));
+        app_.add_option("--keepalive", options_.keepalive,
+                        "Seconds of silence before a gRPC client is asked for a sign of life, 20 s to answer; 0: never")
+            ->check(CLI::Range(0U, kDay));
+        app_.add_option("--max-connection-age", options_.max_connection_age,
+                        "Seconds after which a gRPC client is told to connect anew, when its rpcs are done; 0: never")
+            ->check(CLI::Range(0U, 20 * kDay));
+    }
+
+    ServerOptions options_;
+    std::int64_t ttl_ = std::chrono::duration_cast<std::chrono::seconds>(options_.service.session_ttl).count();
+    bool print_config_ = false;
+    const CLI::Option* http_ = nullptr;
+    CLI::App app_{"vsplitd: serves vsplit.v1.Meshing over gRPC, with health and reflection, and over HTTP with JSON", "vsplitd"};
+};
+
+std::string variable_of(const std::string& option) {
+    std::string name = "VSPLITD_" + option;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](char c) { return c == '-' ? '_' : static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c); });
+    return name;
+}
+
+bool is_given(const std::vector<std::string>& arguments, const std::string& option) {
+    return std::any_of(arguments.begin(), arguments.end(), [&](const std::string& argument) {
+        return argument == "--" + option || argument.starts_with("--" + option + '=');
+    });
+}
+
+// CLI11 would let a file win over the environment.
+void add_environment(CLI::App& app, const Environment& environment, std::vector<std::string>& arguments) {
+    std::vector<std::string> more;
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->get_lnames().empty()) continue;
+        const std::string& name = option->get_lnames().front();
+        if ((!option->get_configurable() && name != "config") || is_given(arguments, name)) continue;
+        if (const std::optional<std::string> value = environment(variable_of(name))) more.push_back("--" + name + '=' + *value);
+    }
+    arguments.insert(arguments.begin(), more.begin(), more.end());
+}
+
+std::string names_of(const CLI::App& app) {
+    std::string names;
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->get_configurable() && !option->get_lnames().empty())
+            names += (names.empty() ? "" : ", ") + option->get_lnames().front();
+    }
+    return names;
 }
 
 }  // namespace
 
-std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv) {
-    ServerOptions options;
-    std::int64_t ttl = std::chrono::duration_cast<std::chrono::seconds>(options.service.session_ttl).count();
-    CLI::App app("vsplitd: serves vsplit.v1.Meshing over gRPC, with health and reflection, and over HTTP with JSON", "vsplitd");
-    app.option_defaults()->always_capture_default();
-    app.set_version_flag("--version", "vsplitd " VSPLIT_VERSION);
-    app.add_option("--listen", options.listen, "HOST:PORT to serve gRPC at; port 0 takes a free one");
-    const CLI::Option* const http =
-        app.add_option("--http", options.http, "HOST:PORT to serve REST at, or off; a free port where --listen takes one");
-    app.add_option("--cors-origin", options.rest.cors_origins,
-                   "Origin of web pages that may use REST, e.g. https://example.org, or *; several are allowed. Default: none")
-        ->option_text("ORIGIN ...");
-    app.add_flag("--print-openapi", options.print_openapi, "Print the OpenAPI document and end");
-    app.add_option("--workers", options.service.workers, "Methods that run at a time; 0: one a core")
-        ->check(CLI::Range(0U, kMostThreads));
-    app.add_option("--threads", options.service.threads, "Threads of one method; 0: all cores")
-        ->check(CLI::Range(0U, kMostThreads));
-    app.add_option("--session-ttl", ttl, "Seconds that an unused session lives")->check(CLI::Range(std::int64_t{1}, kLongestTtl));
-    app.add_option("--log-level", options.log_level, "What is logged to stderr")
-        ->transform(CLI::CheckedTransformer(kLevels).description(""))
-        ->option_text("LEVEL=info: debug, info, warning, error or off");
-    add_limits(app, options.service.limits);
+std::optional<std::string> process_environment(const std::string& name) {
+    const char* const value = std::getenv(name.c_str());
+    return value == nullptr ? std::nullopt : std::optional<std::string>(value);
+}
+
+std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv, const Environment& environment) {
+    Parser parser;
+    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    add_environment(parser.app(), environment, arguments);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     try {
-        app.parse(argc, argv);
+        parser.app().parse(std::move(arguments));
+    } catch (const CLI::ConfigError& error) {
+        std::cerr << "vsplitd: the file of --config: " << error.what() << "; accepted are " << names_of(parser.app()) << '\n';
+        return 1;
     } catch (const CLI::ParseError& error) {
-        return app.exit(error, std::cout, std::cerr) == 0 ? 0 : 1;
+        return parser.app().exit(error, std::cout, std::cerr) == 0 ? 0 : 1;
     }
-    options.service.session_ttl = std::chrono::seconds(ttl);
-    // Who asks for a free port wants to be in nobody's way.
-    if (http->empty() && takes_free_port(options.listen)) options.http = "127.0.0.1:0";
-    return options;
+    if (parser.print_config()) {
+        std::cout << parser.app().config_to_str(true, false);
+        return 0;
+    }
+    return parser.options();
+}
+
+Expected<ServerOptions> parse_config(std::istream& text) {
+    Parser parser;
+    try {
+        parser.app().parse_from_stream(text);
+    } catch (const CLI::Error& error) {
+        return Error{Cause::kInvalidOption, error.what(), "config"};
+    }
+    return parser.options();
 }
 
 }  // namespace vsplit::ops

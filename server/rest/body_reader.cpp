@@ -7,7 +7,7 @@
 
 namespace vsplit::rest {
 
-BodyReader::BodyReader(beast::tcp_stream& stream, beast::flat_buffer& buffer, RequestParser& parser, const RestLimits& limits)
+BodyReader::BodyReader(Stream& stream, beast::flat_buffer& buffer, RequestParser& parser, const RestLimits& limits)
     : stream_(stream), buffer_(buffer), parser_(parser), limits_(limits) {
     const auto expect = parser.get()[http::field::expect];
     client_waits_ =

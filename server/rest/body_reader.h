@@ -8,6 +8,7 @@
 
 #include "rest/asio.h"
 #include "rest/rest_options.h"
+#include "rest/stream.h"
 #include "vsplit/base/expected.h"
 
 namespace vsplit::rest {
@@ -17,7 +18,7 @@ using RequestParser = http::request_parser<http::buffer_body>;
 /// The body of one request, as it comes in: nothing is read before somebody asks for it, and then no more than fits.
 class BodyReader {
 public:
-    BodyReader(beast::tcp_stream& stream, beast::flat_buffer& buffer, RequestParser& parser, const RestLimits& limits);
+    BodyReader(Stream& stream, beast::flat_buffer& buffer, RequestParser& parser, const RestLimits& limits);
 
     /// Bytes of the body; empty when it comes in chunks.
     [[nodiscard]] std::optional<std::uint64_t> declared_size() const;
@@ -37,7 +38,7 @@ private:
     Awaitable<ErrorCode> say_continue();
     [[nodiscard]] std::chrono::steady_clock::time_point deadline() const;
 
-    beast::tcp_stream& stream_;
+    Stream& stream_;
     beast::flat_buffer& buffer_;
     RequestParser& parser_;
     const RestLimits& limits_;

@@ -49,10 +49,21 @@ std::optional<Problem> check_header(const http::request<http::buffer_body>& requ
     return std::nullopt;
 }
 
+RequestMark mark_of(const http::request<http::buffer_body>& request, Stream& stream) {
+    const auto field = [&request](const char* name) {
+        const auto text = request[name];
+        return std::string_view(text.data(), text.size());
+    };
+    ErrorCode failed;
+    const net::ip::tcp::endpoint peer = stream.socket().remote_endpoint(failed);
+    return mark_request(field(wire::kRequestIdKey), field(wire::kTraceparentKey), failed ? "" : peer.address().to_string());
+}
+
 }  // namespace
 
-Connection::Connection(net::ip::tcp::socket socket, Gateway& gateway, HttpObserver observer)
-    : stream_(std::move(socket)), gateway_(gateway), observer_(std::move(observer)) {
+Connection::Connection(net::ip::tcp::socket socket, std::shared_ptr<net::ssl::context> tls, Gateway& gateway,
+                       HttpObserver observer)
+    : stream_(std::move(socket), std::move(tls)), gateway_(gateway), observer_(std::move(observer)) {
     constexpr std::size_t kOneRead = 65536;
     buffer_.max_size(gateway.limits().header_bytes + gateway.limits().ahead_bytes + kOneRead);
     ErrorCode ignored;
@@ -72,19 +83,36 @@ void Connection::close() {
     net::post(stream_.get_executor(), [self = shared_from_this()] { self->stream_.close(); });
 }
 
+Awaitable<bool> Connection::secure() {
+    if (!stream_.secure()) co_return true;
+    stream_.expires_after(gateway_.limits().header_time);
+    const ErrorCode failed = co_await stream_.handshake();
+    co_return !failed;
+}
+
 Awaitable<void> Connection::run() {
+    if (!co_await secure()) {
+        stream_.close();
+        co_return;
+    }
     for (std::size_t served = 1; !draining_; ++served) {
         if (!co_await wait_for_request()) break;
         idle_ = false;
         if (!co_await serve_one(served >= gateway_.limits().requests)) break;
         idle_ = true;
     }
+    stream_.expires_after(kLingerTime);
+    co_await stream_.say_end();
     stream_.close();
 }
 
 Awaitable<void> Connection::refuse() {
     const ResponseManner manner{11, false, false, {}};
     RequestParser parser;
+    if (!co_await secure()) {
+        stream_.close();
+        co_return;
+    }
     Exchange exchange(stream_, buffer_, parser, manner, gateway_.limits());
     Error error{Cause::kUnavailable, "the server has as many connections as it takes", "", 1};
     co_await exchange.fail(problem_of(error));
@@ -116,13 +144,16 @@ Awaitable<bool> Connection::serve_one(bool last) {
     }
     ResponseManner manner = gateway_.manner_of(parser.get());
     if (last || draining_) manner.keep_alive = false;
-    Exchange exchange(stream_, buffer_, parser, std::move(manner), limits);
+    RequestMark mark = mark_of(parser.get(), stream_);
+    manner.fields.emplace_back("X-Request-Id", mark.id);
+    Exchange exchange(stream_, buffer_, parser, std::move(manner), limits, std::move(mark));
     const auto start = std::chrono::steady_clock::now();
     co_await answer(exchange);
     co_await exchange.leave_watch().stop();
     if (observer_) {
         observer_({std::string(exchange.method()), std::string(exchange.target()), exchange.response().status(),
-                   exchange.body().received(), exchange.response().sent(), std::chrono::steady_clock::now() - start});
+                   exchange.body().received(), exchange.response().sent(), std::chrono::steady_clock::now() - start,
+                   exchange.mark()});
     }
     const bool more = exchange.response().keeps_alive() && exchange.body().at_end();
     if (!exchange.body().at_end()) co_await linger();
@@ -156,11 +187,13 @@ Awaitable<void> Connection::refuse_header(RequestParser& parser, const ErrorCode
 
 Awaitable<void> Connection::linger() {
     ErrorCode failed;
+    stream_.expires_after(kLingerTime);
+    co_await stream_.say_end();
     stream_.socket().shutdown(net::socket_base::shutdown_send, failed);
     stream_.expires_after(kLingerTime);
     std::array<char, 16384> room{};
     for (std::size_t read = 0; !failed && read < kLingerBytes;) {
-        read += co_await stream_.async_read_some(net::buffer(room), into(failed));
+        read += co_await stream_.tcp().async_read_some(net::buffer(room), into(failed));
     }
 }
 

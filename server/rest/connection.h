@@ -7,6 +7,7 @@
 
 #include "rest/asio.h"
 #include "rest/gateway.h"
+#include "rest/stream.h"
 
 namespace vsplit::rest {
 
@@ -18,6 +19,7 @@ struct HttpRecord {
     std::uint64_t bytes_in = 0;
     std::uint64_t bytes_out = 0;
     std::chrono::steady_clock::duration elapsed{};
+    RequestMark mark{};
 };
 
 /// Hears of every request at its end, from whatever thread. Must not block.
@@ -26,8 +28,8 @@ using HttpObserver = std::function<void(const HttpRecord&)>;
 /// One client: reads requests and answers them one after another, in order.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
-    /// `gateway` must outlive it. `socket` has a strand of its own.
-    Connection(net::ip::tcp::socket socket, Gateway& gateway, HttpObserver observer);
+    /// `gateway` must outlive it. `tls` is null for a plain connection. `socket` has a strand of its own.
+    Connection(net::ip::tcp::socket socket, std::shared_ptr<net::ssl::context> tls, Gateway& gateway, HttpObserver observer);
 
     /// Serves until the client leaves, breaks the rules, or the connection is drained or closed.
     Awaitable<void> run();
@@ -42,13 +44,14 @@ public:
     void close();
 
 private:
+    Awaitable<bool> secure();
     Awaitable<bool> wait_for_request();
     Awaitable<bool> serve_one(bool last);
     Awaitable<void> refuse_header(RequestParser& parser, const ErrorCode& why);
     Awaitable<void> answer(Exchange& exchange);
     Awaitable<void> linger();
 
-    beast::tcp_stream stream_;
+    Stream stream_;
     Gateway& gateway_;
     const HttpObserver observer_;
     beast::flat_buffer buffer_;

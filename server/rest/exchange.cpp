@@ -5,16 +5,19 @@
 namespace vsplit::rest {
 namespace {
 
+constexpr unsigned kUnauthorized = 401;
+
 // Boost 1.74's string_view is its own.
 std::string_view standard(beast::string_view text) { return {text.data(), text.size()}; }
 
 }  // namespace
 
-Exchange::Exchange(beast::tcp_stream& stream, beast::flat_buffer& buffer, RequestParser& parser, ResponseManner manner,
-                   const RestLimits& limits)
+Exchange::Exchange(Stream& stream, beast::flat_buffer& buffer, RequestParser& parser, ResponseManner manner,
+                   const RestLimits& limits, RequestMark mark)
     : stream_(stream),
       request_(parser.get()),
       limits_(limits),
+      mark_(std::move(mark)),
       body_(stream, buffer, parser, limits),
       response_(stream, std::move(manner), limits),
       leave_watch_(stream, buffer, limits.ahead_bytes) {}
@@ -40,6 +43,7 @@ Awaitable<void> Exchange::fail(const Problem& problem) {
     head.content_type = kProblemType;
     if (!problem.allow.empty()) head.fields.emplace_back("Allow", problem.allow);
     if (!problem.content_range.empty()) head.fields.emplace_back("Content-Range", problem.content_range);
+    if (problem.status == kUnauthorized) head.fields.emplace_back("WWW-Authenticate", "Bearer");
     if (problem.error.retry_after > 0) head.fields.emplace_back("Retry-After", std::to_string(problem.error.retry_after));
     const std::string text = problem_json(problem);
     co_await response_.respond(head, text);

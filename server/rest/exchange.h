@@ -8,7 +8,9 @@
 #include "rest/body_reader.h"
 #include "rest/leave_watch.h"
 #include "rest/problem.h"
+#include "rest/request_mark.h"
 #include "rest/response_writer.h"
+#include "rest/stream.h"
 #include "rest/target.h"
 
 namespace vsplit::rest {
@@ -16,8 +18,8 @@ namespace vsplit::rest {
 /// One request and its answer, which a handler writes. For one coroutine on the connection's strand.
 class Exchange {
 public:
-    Exchange(beast::tcp_stream& stream, beast::flat_buffer& buffer, RequestParser& parser, ResponseManner manner,
-             const RestLimits& limits);
+    Exchange(Stream& stream, beast::flat_buffer& buffer, RequestParser& parser, ResponseManner manner, const RestLimits& limits,
+             RequestMark mark = {});
 
     [[nodiscard]] const http::request<http::buffer_body>& request() const { return request_; }
     [[nodiscard]] std::string_view method() const;
@@ -32,14 +34,16 @@ public:
     [[nodiscard]] LeaveWatch& leave_watch() { return leave_watch_; }
     [[nodiscard]] net::any_io_executor executor() { return stream_.get_executor(); }
     [[nodiscard]] const RestLimits& limits() const { return limits_; }
+    [[nodiscard]] const RequestMark& mark() const { return mark_; }
 
     /// Answers with a problem; where an answer has begun already, cuts it off instead, so that nobody takes it for whole.
     Awaitable<void> fail(const Problem& problem);
 
 private:
-    beast::tcp_stream& stream_;
+    Stream& stream_;
     const http::request<http::buffer_body>& request_;
     const RestLimits& limits_;
+    const RequestMark mark_;
     BodyReader body_;
     ResponseWriter response_;
     LeaveWatch leave_watch_;

@@ -39,6 +39,14 @@ const Route* find_route(const std::vector<const Route*>& routes, std::string_vie
 
 }  // namespace
 
+std::function<Status(const Exchange&)> admission_of(guard::Gatekeeper& gate) {
+    return [&gate](const Exchange& exchange) -> Status {
+        const Expected<std::string> owner =
+            gate.admit({exchange.header(http::field::authorization), exchange.mark().peer}, guard::Access::kRead);
+        return owner ? Status(Done{}) : Status(owner.error());
+    };
+}
+
 Gateway::Gateway(Backend backend, RestOptions options, std::unique_ptr<Schema> schema, Router router)
     : backend_(std::move(backend)),
       options_(std::move(options)),
@@ -97,6 +105,9 @@ Awaitable<void> Gateway::serve_target(Exchange& exchange, const Target& target) 
         if (exchange.method() == "OPTIONS") co_return co_await serve_options(exchange, std::string(kPageMethods));
         if (!is_get(exchange)) co_return co_await exchange.fail(wrong_method(exchange, std::string(kPageMethods)));
         if (ready_page) co_return co_await serve_ready(exchange);
+        const bool guarded = page->second.guarded && backend_.admit != nullptr;
+        const Status admitted = guarded ? backend_.admit(exchange) : Status(Done{});
+        if (!admitted) co_return co_await exchange.fail(problem_of(admitted.error()));
         co_return co_await serve_page(exchange, page->second);
     }
     const std::vector<const Route*> routes = router_.match(target.path);

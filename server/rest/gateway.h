@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "guard/gatekeeper.h"
 #include "rest/exchange.h"
 #include "rest/handlers.h"
 #include "rest/pages.h"
@@ -21,10 +22,14 @@ struct Backend {
     std::vector<std::string_view> descriptor_sets{};  ///< of its services, with source info; they must live as long
     std::vector<std::string> services{};              ///< full names
     std::function<bool()> ready{};                    ///< whether new work is taken; empty: always
+    std::function<Status(const Exchange&)> admit{};   ///< who may see a guarded page; empty: everybody
     std::function<std::string()> metrics{};           ///< text for /metrics; empty: no such page
     Pages pages{};                                    ///< more of them, or others in their place
     std::string version{};                            ///< of the server, for the OpenAPI document
 };
+
+/// What lets those in whose token at least reads. `gate` must outlive it.
+[[nodiscard]] std::function<Status(const Exchange&)> admission_of(guard::Gatekeeper& gate);
 
 /// Decides what answers a request. Thread-safe but for its set-up.
 class Gateway {

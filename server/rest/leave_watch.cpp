@@ -3,9 +3,14 @@
 #include <utility>
 
 namespace vsplit::rest {
+namespace {
+
+constexpr std::size_t kPart = 4096;
+
+}  // namespace
 
 struct LeaveWatch::State {
-    beast::tcp_stream& stream;
+    Stream& stream;
     beast::flat_buffer& buffer;
     std::size_t most_ahead;
     std::function<void()> on_leave;
@@ -13,7 +18,7 @@ struct LeaveWatch::State {
     bool stopped = false;
 };
 
-LeaveWatch::LeaveWatch(beast::tcp_stream& stream, beast::flat_buffer& buffer, std::size_t most_ahead)
+LeaveWatch::LeaveWatch(Stream& stream, beast::flat_buffer& buffer, std::size_t most_ahead)
     : stream_(stream), buffer_(buffer), most_ahead_(most_ahead) {}
 
 void LeaveWatch::start(std::function<void()> on_leave) {
@@ -36,15 +41,29 @@ Awaitable<void> LeaveWatch::stop() {
     co_await state->ended->wait();
 }
 
+// What TLS has read already does not show at the socket, so that a read waits here; `stop` cancels it, and nothing is lost by
+// that.
+Awaitable<std::size_t> LeaveWatch::read_secure(std::shared_ptr<State> state, ErrorCode* failed) {
+    state->stream.expires_never();
+    const auto room = state->buffer.prepare(kPart);
+    const std::size_t got = co_await state->stream.async_read_some(room, into(*failed));
+    co_return got;
+}
+
 Awaitable<void> LeaveWatch::watch(std::shared_ptr<State> state) {
-    constexpr std::size_t kPart = 4096;
     auto& socket = state->stream.socket();
     while (!state->stopped && state->buffer.size() + kPart <= state->most_ahead) {
         ErrorCode failed;
-        co_await socket.async_wait(net::socket_base::wait_read, into(failed));
-        if (state->stopped) co_return;
-        const std::size_t got = failed ? 0 : socket.read_some(state->buffer.prepare(kPart), failed);
+        std::size_t got = 0;
+        if (state->stream.secure()) {
+            got = co_await read_secure(state, &failed);
+        } else {
+            co_await socket.async_wait(net::socket_base::wait_read, into(failed));
+            if (state->stopped) co_return;
+            got = failed ? 0 : socket.read_some(state->buffer.prepare(kPart), failed);
+        }
         state->buffer.commit(got);
+        if (state->stopped) co_return;
         if (failed == net::error::would_block || failed == net::error::interrupted) continue;
         if (failed) {
             if (state->on_leave) state->on_leave();

@@ -5,6 +5,7 @@
 
 #include "rest/asio.h"
 #include "rest/signal.h"
+#include "rest/stream.h"
 
 namespace vsplit::rest {
 
@@ -12,7 +13,7 @@ namespace vsplit::rest {
 /// requests, goes into the buffer up to a limit; one that sends more is no longer watched. All calls from the stream's strand.
 class LeaveWatch {
 public:
-    LeaveWatch(beast::tcp_stream& stream, beast::flat_buffer& buffer, std::size_t most_ahead);
+    LeaveWatch(Stream& stream, beast::flat_buffer& buffer, std::size_t most_ahead);
 
     /// Watches from now on. `on_leave` is called at most once. \pre nothing is read from the stream until `stop` is through.
     void start(std::function<void()> on_leave);
@@ -23,9 +24,10 @@ public:
 private:
     struct State;
 
+    static Awaitable<std::size_t> read_secure(std::shared_ptr<State> state, ErrorCode* failed);
     static Awaitable<void> watch(std::shared_ptr<State> state);
 
-    beast::tcp_stream& stream_;
+    Stream& stream_;
     beast::flat_buffer& buffer_;
     const std::size_t most_ahead_;
     std::shared_ptr<State> state_;

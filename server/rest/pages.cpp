@@ -18,7 +18,7 @@ Pages operations_pages(const Operations& operations) {
     pages["/"] = {"text/plain; charset=utf-8", [] { return std::string(kWelcome); }};
     pages["/healthz"] = {"application/json", [] { return std::string("{\"status\":\"SERVING\"}\n"); }, fresh};
     pages["/openapi.json"] = {"application/json", [document = operations.openapi] { return document; }};
-    if (operations.metrics) pages["/metrics"] = {"text/plain; version=0.0.4; charset=utf-8", operations.metrics, fresh};
+    if (operations.metrics) pages["/metrics"] = {"text/plain; version=0.0.4; charset=utf-8", operations.metrics, fresh, true};
     return pages;
 }
 

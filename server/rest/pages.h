@@ -14,6 +14,7 @@ struct Page {
     std::string content_type;
     std::function<std::string()> text;
     HeaderFields fields = {};
+    bool guarded = false;  ///< for those only whom Backend::admit lets in
 };
 
 /// By path. A path ends in no slash but "/".

@@ -29,7 +29,7 @@ std::string chunk_length(std::size_t size) {
 
 }  // namespace
 
-ResponseWriter::ResponseWriter(beast::tcp_stream& stream, ResponseManner manner, const RestLimits& limits)
+ResponseWriter::ResponseWriter(Stream& stream, ResponseManner manner, const RestLimits& limits)
     : stream_(stream), manner_(std::move(manner)), limits_(limits) {}
 
 http::response<http::empty_body> ResponseWriter::make_header(const ResponseHead& head) {

@@ -11,6 +11,7 @@
 #include "rest/gzip.h"
 #include "rest/header_fields.h"
 #include "rest/rest_options.h"
+#include "rest/stream.h"
 
 namespace vsplit::rest {
 
@@ -37,7 +38,7 @@ using Parts = std::vector<net::const_buffer>;
 /// Writes the answer to one request, part by part; each part is with the operating system before the next is asked for.
 class ResponseWriter {
 public:
-    ResponseWriter(beast::tcp_stream& stream, ResponseManner manner, const RestLimits& limits);
+    ResponseWriter(Stream& stream, ResponseManner manner, const RestLimits& limits);
 
     [[nodiscard]] bool begun() const { return begun_; }
     [[nodiscard]] unsigned status() const { return status_; }
@@ -65,7 +66,7 @@ private:
     Awaitable<bool> send(const Parts& parts);
     Awaitable<bool> send_chunk(const Parts& parts);
 
-    beast::tcp_stream& stream_;
+    Stream& stream_;
     ResponseManner manner_;
     const RestLimits& limits_;
     std::unique_ptr<Gzip> gzip_;

@@ -14,10 +14,12 @@ using net::ip::tcp;
 // The threads, the socket that listens, and who is connected.
 class RestServer::Listener {
 public:
-    Listener(std::shared_ptr<net::io_context> context, std::unique_ptr<Gateway> gateway, HttpObserver observer)
+    Listener(std::shared_ptr<net::io_context> context, std::unique_ptr<Gateway> gateway, HttpObserver observer,
+             std::shared_ptr<TlsContexts> tls)
         : context_(std::move(context)),
           gateway_(std::move(gateway)),
           observer_(std::move(observer)),
+          tls_(std::move(tls)),
           work_(net::make_work_guard(*context_)),
           acceptor_(net::make_strand(*context_)),
           pause_(acceptor_.get_executor()) {}
@@ -88,7 +90,8 @@ private:
 
     void welcome(tcp::socket socket) {
         const auto executor = socket.get_executor();
-        const auto connection = std::make_shared<Connection>(std::move(socket), *gateway_, observer_);
+        const auto connection =
+            std::make_shared<Connection>(std::move(socket), tls_ ? tls_->current() : nullptr, *gateway_, observer_);
         bool room = false;
         {
             const std::lock_guard lock(mutex_);
@@ -109,6 +112,7 @@ private:
     const std::shared_ptr<net::io_context> context_;
     const std::unique_ptr<Gateway> gateway_;
     const HttpObserver observer_;
+    const std::shared_ptr<TlsContexts> tls_;
     net::executor_work_guard<net::io_context::executor_type> work_;
     tcp::acceptor acceptor_;
     net::steady_timer pause_;
@@ -123,12 +127,13 @@ private:
 };
 
 Expected<std::unique_ptr<RestServer>> RestServer::start(const std::string& host, const std::string& port, Backend backend,
-                                                        RestOptions options, HttpObserver observer) {
+                                                        RestOptions options, HttpObserver observer,
+                                                        std::shared_ptr<TlsContexts> tls) {
     auto context = std::make_shared<net::io_context>();
     const unsigned threads = options.threads;
     Expected<std::unique_ptr<Gateway>> gateway = Gateway::make(std::move(backend), std::move(options));
     if (!gateway) return gateway.error();
-    auto listener = std::make_shared<Listener>(std::move(context), *std::move(gateway), std::move(observer));
+    auto listener = std::make_shared<Listener>(std::move(context), *std::move(gateway), std::move(observer), std::move(tls));
     if (Status listening = listener->listen(host, port); !listening) return listening.error();
     listener->run(threads);
     return std::unique_ptr<RestServer>(new RestServer(std::move(listener)));

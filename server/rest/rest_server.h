@@ -7,6 +7,7 @@
 #include "rest/connection.h"
 #include "rest/gateway.h"
 #include "rest/rest_options.h"
+#include "rest/tls.h"
 #include "vsplit/base/expected.h"
 
 namespace vsplit::rest {
@@ -17,7 +18,8 @@ public:
     /// Serves at `host`:`port` (0 for a free one) from now on. \return UNAVAILABLE when it cannot listen there, with the reason;
     /// what Gateway::make returns.
     [[nodiscard]] static Expected<std::unique_ptr<RestServer>> start(const std::string& host, const std::string& port,
-                                                                     Backend backend, RestOptions options, HttpObserver observer);
+                                                                     Backend backend, RestOptions options, HttpObserver observer,
+                                                                     std::shared_ptr<TlsContexts> tls = nullptr);
     ~RestServer();
     RestServer(const RestServer&) = delete;
     RestServer& operator=(const RestServer&) = delete;

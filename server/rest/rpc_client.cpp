@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wire/error_table.h"
+#include "wire/trace_context.h"
 
 namespace vsplit::rest {
 namespace pb = google::protobuf;
@@ -14,6 +15,10 @@ std::shared_ptr<RpcCall> RpcClient::start(Exchange& exchange, const pb::MethodDe
     RpcCall::Metadata metadata;
     const std::string_view credentials = exchange.header(http::field::authorization);
     if (!credentials.empty()) metadata.emplace("authorization", credentials);
+    const RequestMark& mark = exchange.mark();
+    metadata.emplace(wire::kRequestIdKey, mark.id);
+    metadata.emplace(wire::kTraceparentKey, wire::to_traceparent(mark.trace));
+    metadata.emplace(wire::kForwardedPeerKey, mark.peer);
     return RpcCall::start(stub_, '/' + rpc.service()->full_name() + '/' + rpc.name(), metadata, live_, exchange.executor());
 }
 

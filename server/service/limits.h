@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstdint>
 
+#include "service/job_record.h"
+
 namespace vsplit::service {
 
 /// When to try again after a limit on what the server does and holds at a time, seconds.
@@ -14,8 +16,10 @@ struct Limits {
     std::uint32_t faces = 20'000'000;                     ///< of an uploaded mesh
     std::uint32_t faces_subdivided = 20'000'000;          ///< of a mesh after subdivision
     std::uint32_t sessions = 1000;                        ///< at a time
+    std::uint32_t sessions_by_client = 100;               ///< of one token, at a time
     std::uint32_t representations = 32;                   ///< of a session
     std::uint32_t waiting_jobs = 8;                       ///< of a session, besides the one that runs
+    std::uint32_t queued_jobs = 1000;                     ///< of all sessions, for a worker or for another of their session
 };
 
 struct ServiceOptions {
@@ -23,6 +27,7 @@ struct ServiceOptions {
     unsigned workers = 0;                                           ///< methods that run at a time; 0: one a core
     unsigned threads = 1;                                           ///< threads of one method; 0: all cores
     std::chrono::milliseconds session_ttl = std::chrono::hours(1);  ///< an unused session lives this long
+    JobObserver job_observer{};                                     ///< for metrics and the log
 };
 
 }  // namespace vsplit::service

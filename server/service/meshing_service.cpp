@@ -29,37 +29,40 @@ MeshingService::MeshingService(const ServiceOptions& options)
 
 MeshingService::~MeshingService() { shutdown(); }
 
-Expected<SessionSnapshot> MeshingService::snapshot(std::string_view session) {
-    const Expected<std::shared_ptr<Session>> found = sessions_.find(session);
+Expected<SessionSnapshot> MeshingService::snapshot(std::string_view session, const Caller& caller) {
+    const Expected<std::shared_ptr<Session>> found = sessions_.find(session, caller.owner);
     if (!found) return found.error();
     return (*found)->snapshot();
 }
 
-Expected<SessionSnapshot> MeshingService::create_session() {
-    const Expected<std::shared_ptr<Session>> created = sessions_.create(nullptr);
+Expected<SessionSnapshot> MeshingService::create_session(const Caller& caller) {
+    const Expected<std::shared_ptr<Session>> created = sessions_.create(nullptr, caller.owner);
     if (!created) return created.error();
     return (*created)->snapshot();
 }
 
-Expected<SessionSnapshot> MeshingService::create_session(std::span<const std::byte> bytes, const MeshSettings& settings) {
-    if (Status room = sessions_.require_room(); !room) return room.error();
+Expected<SessionSnapshot> MeshingService::create_session(std::span<const std::byte> bytes, const MeshSettings& settings,
+                                                         const Caller& caller) {
+    if (Status room = sessions_.require_room(caller.owner); !room) return room.error();
     if (Status ok = check_settings(settings); !ok) return ok.error();
     Expected<std::shared_ptr<const SourceMesh>> source = read_source(bytes, settings, options_.limits);
     if (!source) return source.error();
-    const Expected<std::shared_ptr<Session>> created = sessions_.create(*std::move(source));
+    const Expected<std::shared_ptr<Session>> created = sessions_.create(*std::move(source), caller.owner);
     if (!created) return created.error();
     return (*created)->snapshot();
 }
 
-Expected<Upload> MeshingService::begin_upload(std::string_view session, const UploadSettings& settings) {
-    Expected<std::shared_ptr<Session>> found = sessions_.find(session);
+Expected<Upload> MeshingService::begin_upload(std::string_view session, const UploadSettings& settings, const Caller& caller) {
+    Expected<std::shared_ptr<Session>> found = sessions_.find(session, caller.owner);
     if (!found) return found.error();
     return Upload::begin(*std::move(found), settings, options_.limits);
 }
 
-Expected<RunningMethod> MeshingService::start(std::string_view session, const MethodRequest& request, JobEvents events) {
-    const Expected<std::shared_ptr<Session>> found = sessions_.find(session);
+Expected<RunningMethod> MeshingService::start(std::string_view session, const MethodRequest& request, JobEvents events,
+                                              const Caller& caller) {
+    const Expected<std::shared_ptr<Session>> found = sessions_.find(session, caller.owner);
     if (!found) return found.error();
+    if (Status room = require_room_in_queue(); !room) return room.error();
     if (Status ok = std::visit([](const auto& options) { return check_options(options); }, request.options); !ok)
         return ok.error();
     const auto make = [&](const SessionSnapshot& now) -> Expected<std::shared_ptr<Job>> {
@@ -67,11 +70,19 @@ Expected<RunningMethod> MeshingService::start(std::string_view session, const Me
         if (!source) return source.error();
         if (Status accepted = source->require_accepted(); !accepted) return accepted.error();
         return std::shared_ptr<Job>(
-            std::make_shared<MethodJob>(*found, *std::move(source), request.options, options_, std::move(events)));
+            std::make_shared<MethodJob>(*found, *std::move(source), request.options, options_, std::move(events), caller));
     };
     Expected<std::shared_ptr<Job>> job = (*found)->enqueue(make);
     if (!job) return job.error();
     return RunningMethod{*found, *std::move(job)};
+}
+
+Status MeshingService::require_room_in_queue() const {
+    const std::size_t waiting = methods_.load().waiting + sessions_.waiting_jobs();
+    if (waiting < options_.limits.queued_jobs) return Done{};
+    return Error{Cause::kLimitExceeded,
+                 std::to_string(waiting) + " methods wait in this server, its limit max_queued; try again when some are done", "",
+                 kRetryAfter};
 }
 
 ServiceLoad MeshingService::load() const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string_view>
 
+#include "service/caller.h"
 #include "service/limits.h"
 #include "service/method_job.h"
 #include "service/session_store.h"
@@ -28,7 +29,7 @@ struct ServiceLoad {
 };
 
 /// Everything a front door needs, whatever it speaks. Thread-safe. Functions marked heavy are for a pool, the others return at
-/// once.
+/// once. A session is found by a caller with the owner that it was made for.
 class MeshingService {
 public:
     explicit MeshingService(const ServiceOptions& options);
@@ -40,21 +41,24 @@ public:
     [[nodiscard]] SessionStore& sessions() { return sessions_; }
 
     /// Whoever calls it a use of the session. \return NOT_FOUND.
-    [[nodiscard]] Expected<SessionSnapshot> snapshot(std::string_view session);
+    [[nodiscard]] Expected<SessionSnapshot> snapshot(std::string_view session, const Caller& caller = {});
 
     /// An empty session. \return LIMIT_EXCEEDED.
-    [[nodiscard]] Expected<SessionSnapshot> create_session();
+    [[nodiscard]] Expected<SessionSnapshot> create_session(const Caller& caller = {});
 
     /// A session with a mesh, or none at all. Heavy: for `intake`. \return LIMIT_EXCEEDED, what `check_settings` and
     /// `read_source` return.
-    [[nodiscard]] Expected<SessionSnapshot> create_session(std::span<const std::byte> bytes, const MeshSettings& settings);
+    [[nodiscard]] Expected<SessionSnapshot> create_session(std::span<const std::byte> bytes, const MeshSettings& settings,
+                                                           const Caller& caller = {});
 
     /// \return NOT_FOUND, what Upload::begin returns.
-    [[nodiscard]] Expected<Upload> begin_upload(std::string_view session, const UploadSettings& settings);
+    [[nodiscard]] Expected<Upload> begin_upload(std::string_view session, const UploadSettings& settings,
+                                                const Caller& caller = {});
 
     /// Queues a method. `events` hear of it from now on, perhaps before this returns.
     /// \return NOT_FOUND, NOT_READY, LIMIT_EXCEEDED, what `check_options` and `require_manifold` return; no event then.
-    [[nodiscard]] Expected<RunningMethod> start(std::string_view session, const MethodRequest& request, JobEvents events);
+    [[nodiscard]] Expected<RunningMethod> start(std::string_view session, const MethodRequest& request, JobEvents events,
+                                                const Caller& caller = {});
 
     /// Runs something heavy for a reader, on a thread of its own kind: no method and no mesh that comes in keeps it waiting.
     /// False when shut down.
@@ -76,6 +80,8 @@ public:
     void shutdown();
 
 private:
+    [[nodiscard]] Status require_room_in_queue() const;
+
     const ServiceOptions options_;
     WorkerPool methods_;
     WorkerPool errands_;

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
+#include "service/caller.h"
 #include "service/job_queue.h"
+#include "service/job_record.h"
 #include "service/progress_gate.h"
 #include "service/session.h"
 #include "vsplit/base/execution_context.h"
@@ -24,7 +28,7 @@ struct JobEvents {
 class MethodJob final : public Job {
 public:
     MethodJob(std::shared_ptr<Session> session, PickedMesh source, const MethodOptions& options, const ServiceOptions& service,
-              JobEvents events);
+              JobEvents events, const Caller& caller);
 
     [[nodiscard]] Report run() override;
     void stop(const Error& why) override;
@@ -36,12 +40,16 @@ private:
     [[nodiscard]] Expected<MethodResult> apply(const ControlOptions& options, const TriangleMesh& mesh);
     [[nodiscard]] std::optional<Error> stopped() const;
     void tell(const Progress& progress);
+    void record(const JobOutcome& outcome, std::chrono::steady_clock::time_point began) const;
 
     std::shared_ptr<Session> session_;
     const PickedMesh source_;
     const MethodOptions options_;
     const MethodLimits limits_;
     const JobEvents events_;
+    const JobObserver observer_;
+    const std::string request_id_;
+    const std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
     ProgressGate gate_;
     ExecutionContext context_;
     mutable std::mutex mutex_;

@@ -5,8 +5,9 @@
 namespace vsplit::service {
 
 Session::Session(std::string id, std::uint64_t number, std::shared_ptr<const SourceMesh> source, const ServiceOptions& options,
-                 WorkerPool& workers)
+                 WorkerPool& workers, std::string owner)
     : id_(std::move(id)),
+      owner_(std::move(owner)),
       number_(number),
       options_(options),
       queue_(std::make_shared<JobQueue>(workers, options.limits.waiting_jobs)),
@@ -55,6 +56,20 @@ Status Session::require_idle_locked() const {
 Status Session::set_source(std::shared_ptr<const SourceMesh> source) {
     std::vector<SessionSnapshot::RepresentationPointer> dropped;  // freed after the lock is released
     const std::lock_guard lock(mutex_);
+    return set_source_locked(source, dropped);
+}
+
+Status Session::replace_source(const std::shared_ptr<const SourceMesh>& before, std::shared_ptr<const SourceMesh> source) {
+    std::vector<SessionSnapshot::RepresentationPointer> dropped;
+    const std::lock_guard lock(mutex_);
+    if (source_ != before) {
+        return Error{Cause::kBusy, "the session got another mesh in the meantime; nothing was changed", "session", kRetryAfter};
+    }
+    return set_source_locked(source, dropped);
+}
+
+Status Session::set_source_locked(std::shared_ptr<const SourceMesh>& source,
+                                  std::vector<SessionSnapshot::RepresentationPointer>& dropped) {
     if (Status idle = require_idle_locked(); !idle) return idle;
     source_.swap(source);
     representations_.swap(dropped);

@@ -19,8 +19,10 @@ class Session {
 public:
     /// `source` may be null. `number` orders sessions by creation.
     Session(std::string id, std::uint64_t number, std::shared_ptr<const SourceMesh> source, const ServiceOptions& options,
-            WorkerPool& workers);
+            WorkerPool& workers, std::string owner = {});
 
+    /// Who made it; nobody else sees it.
+    [[nodiscard]] const std::string& owner() const { return owner_; }
     [[nodiscard]] const std::string& id() const { return id_; }
     [[nodiscard]] std::uint64_t number() const { return number_; }
     [[nodiscard]] SessionSnapshot snapshot() const;
@@ -36,6 +38,10 @@ public:
 
     /// Replaces the mesh and drops all representations. \return as `require_idle`.
     [[nodiscard]] Status set_source(std::shared_ptr<const SourceMesh> source);
+
+    /// The same for a mesh that was made from `before`. \return also BUSY where that is no longer the session's.
+    [[nodiscard]] Status replace_source(const std::shared_ptr<const SourceMesh>& before,
+                                        std::shared_ptr<const SourceMesh> source);
 
     /// \return NOT_FOUND when closed.
     [[nodiscard]] Expected<SessionSnapshot::RepresentationPointer> add_representation(MeshRef source, MethodResult result);
@@ -61,8 +67,11 @@ private:
     [[nodiscard]] SessionSnapshot snapshot_locked() const;
     [[nodiscard]] Status require_open_locked() const;
     [[nodiscard]] Status require_idle_locked() const;
+    [[nodiscard]] Status set_source_locked(std::shared_ptr<const SourceMesh>& source,
+                                           std::vector<SessionSnapshot::RepresentationPointer>& dropped);
 
     const std::string id_;
+    const std::string owner_;
     const std::uint64_t number_;
     const ServiceOptions options_;
     const std::chrono::system_clock::time_point create_time_ = std::chrono::system_clock::now();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <iterator>
 #include <utility>
 
 #include "service/quoted.h"
@@ -30,10 +29,10 @@ Expected<std::uint64_t> parse_token(std::string_view token) {
 
 }  // namespace
 
-Status SessionStore::require_room() {
+Status SessionStore::require_room(std::string_view owner) {
     remove_expired();
     const std::lock_guard lock(mutex_);
-    return require_room_locked();
+    return require_room_locked(owner);
 }
 
 std::size_t SessionStore::count() const {
@@ -48,7 +47,15 @@ std::size_t SessionStore::waiting_jobs() const {
     return waiting;
 }
 
-Status SessionStore::require_room_locked() const {
+Status SessionStore::require_room_locked(std::string_view owner) const {
+    const auto held = by_owner_.find(owner);
+    if (!owner.empty() && held != by_owner_.end() && held->second >= options_.limits.sessions_by_client) {
+        return Error{
+            Cause::kLimitExceeded,
+            "there are " + std::to_string(held->second) +
+                " sessions of this token, the server's limit max_sessions_by_client; delete one, or wait until one expires",
+            "", kRetryAfter};
+    }
     if (sessions_.size() < options_.limits.sessions) return Done{};
     return Error{Cause::kLimitExceeded,
                  "the server holds " + std::to_string(sessions_.size()) +
@@ -56,35 +63,38 @@ Status SessionStore::require_room_locked() const {
                  "", kRetryAfter};
 }
 
-Expected<std::shared_ptr<Session>> SessionStore::create(std::shared_ptr<const SourceMesh> source) {
+Expected<std::shared_ptr<Session>> SessionStore::create(std::shared_ptr<const SourceMesh> source, const std::string& owner) {
     remove_expired();
     Expected<std::string> id = random_id();
     if (!id) return id.error();
     const std::lock_guard lock(mutex_);
-    if (Status room = require_room_locked(); !room) return room.error();
-    auto session = std::make_shared<Session>(*id, ++last_number_, std::move(source), options_, workers_);
+    if (Status room = require_room_locked(owner); !room) return room.error();
+    auto session = std::make_shared<Session>(*id, ++last_number_, std::move(source), options_, workers_, owner);
+    ++by_owner_[owner];
     numbers_.emplace(*id, last_number_);
     sessions_.emplace(last_number_, session);
     return session;
 }
 
-Expected<std::shared_ptr<Session>> SessionStore::find(std::string_view id) {
+Expected<std::shared_ptr<Session>> SessionStore::find(std::string_view id, std::string_view owner) {
     const std::lock_guard lock(mutex_);
     const auto number = numbers_.find(std::string(id));
     if (number == numbers_.end()) return unknown_session(id);
     const std::shared_ptr<Session>& session = sessions_.at(number->second);
-    if (session->expired()) return unknown_session(id);
+    if (session->owner() != owner || session->expired()) return unknown_session(id);
     session->touch();
     return session;
 }
 
-Status SessionStore::remove(std::string_view id) {
+Status SessionStore::remove(std::string_view id, std::string_view owner) {
     std::shared_ptr<Session> removed;
     {
         const std::lock_guard lock(mutex_);
         const auto number = numbers_.find(std::string(id));
         if (number == numbers_.end()) return unknown_session(id);
         const auto entry = sessions_.find(number->second);
+        if (entry->second->owner() != owner) return unknown_session(id);
+        forget_owner_of(*entry->second);
         removed = std::move(entry->second);
         sessions_.erase(entry);
         numbers_.erase(number);
@@ -93,17 +103,22 @@ Status SessionStore::remove(std::string_view id) {
     return Done{};
 }
 
-Expected<SessionPage> SessionStore::list(std::uint32_t page_size, std::string_view page_token) const {
+Expected<SessionPage> SessionStore::list(std::uint32_t page_size, std::string_view page_token, std::string_view owner) const {
     Expected<std::uint64_t> after = parse_token(page_token);
     if (!after) return after.error();
     const std::uint32_t most = page_size == 0 ? kDefaultPage : std::min(page_size, kLargestPage);
     SessionPage page;
     const std::lock_guard lock(mutex_);
-    auto at = sessions_.upper_bound(*after);
-    for (; at != sessions_.end() && page.sessions.size() < most; ++at) {
-        if (!at->second->expired()) page.sessions.push_back(at->second->snapshot());
+    std::uint64_t last = 0;
+    for (auto at = sessions_.upper_bound(*after); at != sessions_.end(); ++at) {
+        if (at->second->owner() != owner || at->second->expired()) continue;
+        if (page.sessions.size() == most) {
+            page.next_page_token = std::to_string(last);
+            break;
+        }
+        page.sessions.push_back(at->second->snapshot());
+        last = at->first;
     }
-    if (at != sessions_.end()) page.next_page_token = std::to_string(std::prev(at)->first);
     return page;
 }
 
@@ -122,10 +137,17 @@ std::vector<std::shared_ptr<Session>> SessionStore::take_expired() {
             continue;
         }
         numbers_.erase(at->second->id());
+        forget_owner_of(*at->second);
         taken.push_back(std::move(at->second));
         at = sessions_.erase(at);
     }
     return taken;
+}
+
+// Lock held.
+void SessionStore::forget_owner_of(const Session& session) {
+    const auto held = by_owner_.find(session.owner());
+    if (--held->second == 0) by_owner_.erase(held);
 }
 
 void SessionStore::clear(const Error& why) {
@@ -134,6 +156,7 @@ void SessionStore::clear(const Error& why) {
         const std::lock_guard lock(mutex_);
         removed.swap(sessions_);
         numbers_.clear();
+        by_owner_.clear();
     }
     for (const auto& [number, session] : removed) session->close(why);
 }

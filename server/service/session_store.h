@@ -29,20 +29,22 @@ public:
     SessionStore(const ServiceOptions& options, WorkerPool& workers) : options_(options), workers_(workers) {}
 
     /// Whether `create` has room. \return LIMIT_EXCEEDED.
-    [[nodiscard]] Status require_room();
+    [[nodiscard]] Status require_room(std::string_view owner = {});
 
     /// \return LIMIT_EXCEEDED. `source` may be null.
-    [[nodiscard]] Expected<std::shared_ptr<Session>> create(std::shared_ptr<const SourceMesh> source);
+    [[nodiscard]] Expected<std::shared_ptr<Session>> create(std::shared_ptr<const SourceMesh> source,
+                                                            const std::string& owner = {});
 
-    /// A use of the session: it lives its full time again. \return NOT_FOUND.
-    [[nodiscard]] Expected<std::shared_ptr<Session>> find(std::string_view id);
+    /// A use of the session: it lives its full time again. \return NOT_FOUND, also for a session of another owner.
+    [[nodiscard]] Expected<std::shared_ptr<Session>> find(std::string_view id, std::string_view owner = {});
 
-    /// Closes and forgets the session. \return NOT_FOUND.
-    [[nodiscard]] Status remove(std::string_view id);
+    /// Closes and forgets the session. \return as `find`.
+    [[nodiscard]] Status remove(std::string_view id, std::string_view owner = {});
 
     /// `page_size` 0 means kDefaultPage. Looking at the list is no use of the sessions in it.
-    /// \return INVALID_OPTION for a token that is none of ours. O(page + log sessions).
-    [[nodiscard]] Expected<SessionPage> list(std::uint32_t page_size, std::string_view page_token) const;
+    /// \return INVALID_OPTION for a token that is none of ours. O(sessions).
+    [[nodiscard]] Expected<SessionPage> list(std::uint32_t page_size, std::string_view page_token,
+                                             std::string_view owner = {}) const;
 
     [[nodiscard]] std::size_t count() const;
 
@@ -58,14 +60,16 @@ public:
 private:
     using Sessions = std::map<std::uint64_t, std::shared_ptr<Session>>;
 
-    [[nodiscard]] Status require_room_locked() const;
+    [[nodiscard]] Status require_room_locked(std::string_view owner) const;
     [[nodiscard]] std::vector<std::shared_ptr<Session>> take_expired();
+    void forget_owner_of(const Session& session);
 
     const ServiceOptions options_;
     WorkerPool& workers_;
     mutable std::mutex mutex_;
     Sessions sessions_;  // by number
     std::unordered_map<std::string, std::uint64_t> numbers_;
+    std::map<std::string, std::uint32_t, std::less<>> by_owner_;  // how many sessions; none is no entry
     std::uint64_t last_number_ = 0;
 };
 

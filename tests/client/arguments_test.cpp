@@ -162,7 +162,9 @@ TEST(ArgumentsTest, RefusesWithStatusOne) {
     EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "--threads", "1025"})), 1);
     EXPECT_EQ(std::get<int>(parsed({"improve", "a.stl", "-o"})), 1);
     const std::string said = testing::internal::GetCapturedStderr();
-    EXPECT_NE(said.find("accepted is one of control, improve, info, quality, resolution"), std::string::npos) << said;
+    EXPECT_NE(said.find("accepted is one of control, features, improve, info, quality, remove-features, resolution"),
+              std::string::npos)
+        << said;
     EXPECT_NE(said.find("--mode: 'loose' is given; accepted is one of extended, strict"), std::string::npos) << said;
     EXPECT_NE(said.find("--faces: '-5' is given; accepted is a whole number"), std::string::npos) << said;
 }

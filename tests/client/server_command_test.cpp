@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/client/command.h"
+#include "tests/core/drilled_plate.h"
 #include "tests/core/meshes.h"
 #include "vsplit/client/meshing_client.h"
 #include "vsplit/io/write_mesh.h"
@@ -98,6 +99,21 @@ TEST_F(ServerCommandTest, ImproveIsWhatItIsLocally) {
     EXPECT_EQ(stored_here->mrr, stored_there->mrr);
     EXPECT_EQ(stored_here->faces, stored_there->faces);
     EXPECT_EQ(sessions(), 0);
+}
+
+TEST_F(ServerCommandTest, FeaturesAreWhatTheyAreLocally) {
+    const std::string mesh = mesh_file("plate.ply", test::drilled_plate(2, 10, 4, {{4, 4, 24}, {3, 2, 24}}));
+    const CommandResult listed = remotely({"features", mesh, "--json"});
+    ASSERT_EQ(listed.exit_status, 0) << listed.err;
+    EXPECT_EQ(listed.out, locally({"features", mesh, "--json"}).out);
+    EXPECT_NE(listed.out.find("THROUGH_HOLE"), std::string::npos);
+    const CommandResult removed = remotely({"remove-features", mesh, "--max-diameter", "3.5", "-o", file("far.ply"), "--json"});
+    ASSERT_EQ(removed.exit_status, 0) << removed.err;
+    EXPECT_EQ(removed.out, locally({"remove-features", mesh, "--max-diameter", "3.5", "-o", file("near.ply"), "--json"}).out);
+    EXPECT_EQ(test::file_content(file("far.ply")), test::file_content(file("near.ply")));
+    const CommandResult refused = remotely({"remove-features", mesh, "--id", "9"});
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_NE(refused.err.find("--id"), std::string::npos) << refused.err;
 }
 
 TEST_F(ServerCommandTest, OneSessionServesSeveralCommands) {

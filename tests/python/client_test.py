@@ -58,6 +58,17 @@ class ClientTest(unittest.TestCase):
             again = self.client.open(self.session, made.id, made.faces_min, encoding=encoding, bits=bits)
             np.testing.assert_array_equal(again.at(made.faces)[0], mesh.at(made.faces)[0])
 
+    def test_holes_are_listed_and_removed(self):
+        session = self.client.upload(DATA / "bracket.stl")
+        holes = self.client.features(session)
+        small = [hole.id for hole in holes if hole.diameter < 7]
+        self.assertEqual(len(small), 6)
+        done = self.client.remove_features(session, ids=small[:2], max_diameter=6.5)
+        self.assertEqual(list(done.removed), small)
+        self.assertTrue(done.source.closed)
+        self.assertEqual(len(self.client.features(session)), len(holes) - 6)
+        self.client.delete(session)
+
     def test_other_libraries_take_what_it_gives(self):
         mesh = self.client.improve(self.session, faces=3000)
         points, cells = mesh.meshio_at(1000)

@@ -255,7 +255,7 @@ TEST_F(BadRequestTest, AnUnknownSourceIsNamed) {
 }
 
 TEST_F(BadRequestTest, AMessageOverTheLimitIsRefused) {
-    const Reply<v1::Session> reply = create_session(server_.stub(), std::string(rpc::GrpcServer::kMaxMessageBytes + 1, 'x'));
+    const Reply<v1::Session> reply = create_session(server_.stub(), std::string(rpc::GrpcLimits().message_bytes + 1, 'x'));
     EXPECT_EQ(reply.status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
     expect_unharmed();
 }

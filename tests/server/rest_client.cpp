@@ -68,12 +68,15 @@ HttpReply ask(int port, const std::string& method, const std::string& target, co
     return HttpClient(port).ask(method, target, fields, body);
 }
 
-RestFixture::RestFixture(const service::ServiceOptions& options, rest::RestOptions rest_options) : grpc_(options) {
+RestFixture::RestFixture(const service::ServiceOptions& options, rest::RestOptions rest_options, const rpc::GrpcExtras& extras)
+    : grpc_(options, extras) {
     rest::Backend backend;
     backend.channel = grpc_.server().channel();
     backend.descriptor_sets = {rest::contract_descriptors()};
     backend.services = {v1::Meshing::service_full_name()};
     backend.version = "test";
+    backend.metrics = [] { return std::string("# nothing is counted here\n"); };
+    if (extras.gate != nullptr) backend.admit = rest::admission_of(*extras.gate);
     auto started = rest::RestServer::start("127.0.0.1", "0", std::move(backend), std::move(rest_options), {});
     if (!started) {
         std::cerr << started.error().message << '\n';

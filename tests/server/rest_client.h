@@ -57,7 +57,8 @@ private:
 /// A server with both doors.
 class RestFixture {
 public:
-    explicit RestFixture(const service::ServiceOptions& options = small_server(), rest::RestOptions rest_options = {});
+    explicit RestFixture(const service::ServiceOptions& options = small_server(), rest::RestOptions rest_options = {},
+                         const rpc::GrpcExtras& extras = {});
 
     [[nodiscard]] int port() const { return rest_->port(); }
     [[nodiscard]] TestServer& grpc() { return grpc_; }

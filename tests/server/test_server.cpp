@@ -15,9 +15,9 @@ service::ServiceOptions small_server() {
     return options;
 }
 
-TestServer::TestServer(const service::ServiceOptions& options) : service_(options) {
-    Expected<std::unique_ptr<rpc::GrpcServer>> server =
-        rpc::GrpcServer::start("127.0.0.1:0", service_, {[this](const rpc::RpcRecord& record) { note(record); }});
+TestServer::TestServer(const service::ServiceOptions& options, rpc::GrpcExtras extras) : service_(options) {
+    extras.observer = [this](const rpc::RpcRecord& record) { note(record); };
+    Expected<std::unique_ptr<rpc::GrpcServer>> server = rpc::GrpcServer::start("127.0.0.1:0", service_, std::move(extras));
     if (!server) {
         std::cerr << server.error().message << '\n';
         std::abort();  // no test can say anything without a server

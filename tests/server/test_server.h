@@ -19,7 +19,7 @@ namespace vsplit::test {
 /// A server in this process, on a free port of the loopback, and a connection to it.
 class TestServer {
 public:
-    explicit TestServer(const service::ServiceOptions& options = small_server());
+    explicit TestServer(const service::ServiceOptions& options = small_server(), rpc::GrpcExtras extras = {});
     ~TestServer();
 
     [[nodiscard]] v1::Meshing::Stub& stub() { return *stub_; }

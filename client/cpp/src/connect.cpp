@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "call.h"
+#include "credentials.h"
 #include "vsplit/base/execution_context.h"
 #include "vsplit/v1/meshing.grpc.pb.h"
 
@@ -33,7 +34,8 @@ Status check_target(const std::string& target) {
     return Error{Cause::kInvalidOption, "server is '" + target + "'; accepted is HOST:PORT, e.g. 127.0.0.1:50051", "server"};
 }
 
-std::shared_ptr<grpc::Channel> create_channel(const std::string& target) {
+std::shared_ptr<grpc::Channel> create_channel(const std::string& target, const ConnectOptions& options,
+                                              const std::shared_ptr<grpc::ChannelCredentials>& credentials) {
     constexpr int kMaxMessage = 64 << 20;  // a page of sessions with many representations
     grpc::ChannelArguments arguments;
     arguments.SetMaxReceiveMessageSize(kMaxMessage);
@@ -43,7 +45,7 @@ std::shared_ptr<grpc::Channel> create_channel(const std::string& target) {
     arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kFirstMs);
     arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, kFirstMs);
     arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kLongestMs);
-    return grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments);
+    return grpc::experimental::CreateCustomChannelWithInterceptors(target, credentials, arguments, call_marks(options));
 }
 
 /// Why a channel does not connect: only a call is told.
@@ -59,7 +61,9 @@ Error unreachable(const std::shared_ptr<grpc::Channel>& channel, const std::stri
 
 Expected<std::shared_ptr<grpc::Channel>> open_channel(const std::string& target, const ConnectOptions& options) {
     if (Status valid = check_target(target); !valid) return valid.error();
-    std::shared_ptr<grpc::Channel> channel = create_channel(target);
+    const Expected<std::shared_ptr<grpc::ChannelCredentials>> credentials = channel_credentials(options);
+    if (!credentials) return credentials.error();
+    std::shared_ptr<grpc::Channel> channel = create_channel(target, options, *credentials);
     const Clock::time_point deadline = Clock::now() + options.timeout;
     for (;;) {
         const grpc_connectivity_state state = channel->GetState(true);

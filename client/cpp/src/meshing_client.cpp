@@ -118,4 +118,13 @@ Expected<v1::Quality> MeshingClient::get_quality(const v1::GetQualityRequest& re
     return impl_->unary(&v1::Meshing::Stub::GetQuality, request, call);
 }
 
+Expected<v1::ListFeaturesResponse> MeshingClient::list_features(const v1::ListFeaturesRequest& request, const CallOptions& call) {
+    return impl_->unary(&v1::Meshing::Stub::ListFeatures, request, call);
+}
+
+Expected<v1::RemoveFeaturesResponse> MeshingClient::remove_features(const v1::RemoveFeaturesRequest& request,
+                                                                    const CallOptions& call) {
+    return impl_->unary(&v1::Meshing::Stub::RemoveFeatures, request, call);
+}
+
 }  // namespace vsplit::client

@@ -1,10 +1,12 @@
 """The verbs of the service."""
 
+import os
 import pathlib
 import time
 
 import grpc
 
+from .access import open_channel
 from .mesh import Mesh
 from .v1 import meshing_pb2 as v1
 from .v1 import meshing_pb2_grpc
@@ -16,10 +18,14 @@ _ENCODINGS = {"float64": v1.FLOAT64, "float32": v1.FLOAT32, "quantised": v1.QUAN
 class Client:
     """A connection; thread-safe, as grpc channels are. Calls raise grpc.RpcError, whose details say what was wrong."""
 
-    def __init__(self, target, attempts=5):
-        """`attempts`: tries in a row that bring nothing before a stream that broke is given up."""
+    def __init__(self, target, attempts=5, *, token=None, tls_ca=None, tls_cert=None, tls_key=None):
+        """`attempts`: tries in a row that bring nothing before a stream that broke is given up.
+
+        `token`: goes with every call; by default that of the variable VSPLIT_TOKEN. `tls_ca`: a file of authorities (PEM), which
+        makes it TLS; `tls_cert`, `tls_key`: files to show to a server that wants a certificate.
+        """
         options = [("grpc.enable_http_proxy", 0), ("grpc.max_receive_message_length", 64 << 20)]
-        self._channel = grpc.insecure_channel(target, options)
+        self._channel = open_channel(target, options, token or os.environ.get("VSPLIT_TOKEN"), tls_ca, tls_cert, tls_key)
         self._stub = meshing_pb2_grpc.MeshingStub(self._channel)
         self._attempts = attempts
 
@@ -67,6 +73,14 @@ class Client:
         request = v1.DownloadMeshRequest(
             session=session, representation=representation, faces=faces, format=v1.MeshFormat.Value(format))
         return b"".join(chunk.data for chunk in self._stub.DownloadMesh(request))
+
+    def features(self, session, **options):
+        """ShapeFeature messages of the session's mesh. `options`: the fields of ListFeaturesRequest."""
+        return list(self._stub.ListFeatures(v1.ListFeaturesRequest(session=session, **options)).features)
+
+    def remove_features(self, session, *, ids=(), **options):
+        """Takes features off the session's mesh; a RemoveFeaturesResponse. `options`: `max_diameter`, `angle`."""
+        return self._stub.RemoveFeatures(v1.RemoveFeaturesRequest(session=session, ids=ids, **options))
 
     def delete(self, session):
         self._stub.DeleteSession(v1.DeleteSessionRequest(session=session))

@@ -44,6 +44,10 @@ std::string_view cause_name(Cause cause) {
             return "CANCELLED";
         case Cause::kDeadlineExceeded:
             return "DEADLINE_EXCEEDED";
+        case Cause::kUnauthenticated:
+            return "UNAUTHENTICATED";
+        case Cause::kForbidden:
+            return "FORBIDDEN";
         case Cause::kInternal:
             return "INTERNAL";
     }

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <string>
 
+#include "io/elements.h"
 #include "io/named_regions.h"
 #include "io/text_writer.h"
 #include "io/writers.h"
@@ -51,20 +52,27 @@ void write_grid(TextWriter& text, std::uint64_t id, const Vec3& p) {
          << field(nastran_real(p.y()), kWide) << "\n*       " << nastran_real(p.z()) << "\n";
 }
 
-void write_face(TextWriter& text, std::uint64_t id, std::uint64_t property, const Triangle& face) {
+void write_face(TextWriter& text, const Elements& elements, std::size_t f, std::uint64_t property) {
     constexpr std::uint64_t kLargestNarrow = 99'999'999;
-    const std::uint64_t largest = std::max({id, property, std::uint64_t{*std::max_element(face.begin(), face.end())} + 1});
-    const std::size_t width = largest > kLargestNarrow ? kWide : kNarrow;
-    text << (width == kWide ? "CTRIA3* " : "CTRIA3  ") << field(id, width) << field(property, width);
-    text << field(std::uint64_t{face[0]} + 1, width) << field(std::uint64_t{face[1]} + 1, width);
-    if (width == kWide) text << "\n*       ";
-    text << std::to_string(std::uint64_t{face[2]} + 1) << "\n";
+    const bool wide = std::max({std::uint64_t{f} + 1, property, std::uint64_t{elements.node_count()}}) > kLargestNarrow;
+    const std::size_t width = wide ? kWide : kNarrow;
+    const std::uint32_t nodes = elements.order_nodes();
+    text << (nodes == 3 ? "CTRIA3" : "CTRIA6") << (wide ? "* " : "  ") << field(std::uint64_t{f} + 1, width)
+         << field(property, width);
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+        // A line of wide fields has four of them.
+        if (wide && i == 2) text << "\n*       ";
+        const std::uint64_t id = std::uint64_t{elements.node(f, i)} + 1;
+        text << (i + 1 == nodes ? std::to_string(id) : field(id, width));
+    }
+    text << "\n";
 }
 
 }  // namespace
 
-std::string write_bdf(const TriangleMesh& mesh) {
-    TextWriter text(mesh.positions.size() * 100 + mesh.faces.size() * 50);
+std::string write_bdf(const Elements& elements) {
+    const TriangleMesh& mesh = elements.mesh();
+    TextWriter text(elements.node_count() * 100 + mesh.faces.size() * 50);
     text << "$ vsplit\nBEGIN BULK\n";
     const std::vector<NamedRegion> regions = named_regions(mesh);
     const std::uint64_t for_none = mesh.regions.empty() || regions.empty() ? 1 : std::uint64_t{regions.back().region} + 1;
@@ -75,10 +83,10 @@ std::string write_bdf(const TriangleMesh& mesh) {
             text << "$HMNAME COMP  " << field(region.region, kWide) << "\"" << name << "\"\n";
         }
     }
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) write_grid(text, v + 1, mesh.positions[v]);
+    for (std::size_t v = 0; v < elements.node_count(); ++v) write_grid(text, v + 1, elements.position(v));
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         const std::uint32_t region = mesh.regions.empty() ? 0 : mesh.regions[f];
-        write_face(text, f + 1, region == 0 ? for_none : region, mesh.faces[f]);
+        write_face(text, elements, f, region == 0 ? for_none : region);
     }
     text << "ENDDATA\n";
     return text.take();

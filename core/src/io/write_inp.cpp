@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "io/elements.h"
 #include "io/named_regions.h"
 #include "io/text_writer.h"
 #include "io/writers.h"
@@ -16,13 +17,14 @@ void write_numbers(TextWriter& text, const std::vector<std::uint32_t>& numbers) 
     }
 }
 
-void write_set(TextWriter& text, const TriangleMesh& mesh, const FaceSet& set) {
+void write_set(TextWriter& text, const Elements& elements, const FaceSet& set) {
+    const TriangleMesh& mesh = elements.mesh();
     std::vector<std::uint32_t> faces;
     std::vector<std::uint32_t> nodes;
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
         if (std::find(set.regions.begin(), set.regions.end(), mesh.regions[f]) == set.regions.end()) continue;
         faces.push_back(f);
-        nodes.insert(nodes.end(), mesh.faces[f].begin(), mesh.faces[f].end());
+        for (std::uint32_t i = 0; i < elements.order_nodes(); ++i) nodes.push_back(elements.node(f, i));
     }
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -35,21 +37,22 @@ void write_set(TextWriter& text, const TriangleMesh& mesh, const FaceSet& set) {
 
 }  // namespace
 
-std::string write_inp(const TriangleMesh& mesh) {
-    TextWriter text(mesh.positions.size() * kVertexTextBytes + mesh.faces.size() * kFaceTextBytes);
+std::string write_inp(const Elements& elements) {
+    const TriangleMesh& mesh = elements.mesh();
+    TextWriter text(elements.node_count() * kVertexTextBytes + mesh.faces.size() * kFaceTextBytes);
     text << "*HEADING\nvsplit\n*NODE, NSET=Nall\n";
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        const Vec3& p = mesh.positions[v];
+    for (std::size_t v = 0; v < elements.node_count(); ++v) {
+        const Vec3& p = elements.position(v);
         text << v + 1 << ", " << p.x() << ", " << p.y() << ", " << p.z() << "\n";
     }
-    text << "*ELEMENT, TYPE=S3, ELSET=" << kAllElements << "\n";
+    text << "*ELEMENT, TYPE=S" << elements.order_nodes() << ", ELSET=" << kAllElements << "\n";
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         text << f + 1;
-        for (const std::uint32_t vertex : mesh.faces[f]) text << ", " << std::uint64_t{vertex} + 1;
+        for (std::uint32_t i = 0; i < elements.order_nodes(); ++i) text << ", " << std::uint64_t{elements.node(f, i)} + 1;
         text << "\n";
     }
     if (!mesh.regions.empty()) {
-        for (const FaceSet& set : sets_for_solvers(mesh)) write_set(text, mesh, set);
+        for (const FaceSet& set : sets_for_solvers(mesh)) write_set(text, elements, set);
     }
     return text.take();
 }

@@ -1,9 +1,38 @@
 #include "vsplit/io/write_mesh.h"
 
+#include <algorithm>
+#include <array>
+
 #include "base/write_file.h"
+#include "io/elements.h"
 #include "io/writers.h"
+#include "vsplit/io/second_order.h"
 
 namespace vsplit {
+namespace {
+
+/// Formats that name the kind of an element; VTU where no other is asked for.
+std::string write_elements(const Elements& elements, MeshFormat format) {
+    switch (format) {
+        case MeshFormat::kMsh:
+        case MeshFormat::kMshAscii:
+            return write_msh_4(elements, format == MeshFormat::kMshAscii);
+        case MeshFormat::kMsh2:
+        case MeshFormat::kMsh2Ascii:
+            return write_msh_2(elements, format == MeshFormat::kMsh2Ascii);
+        case MeshFormat::kInp:
+            return write_inp(elements);
+        case MeshFormat::kBdf:
+            return write_bdf(elements);
+        case MeshFormat::kVtk:
+        case MeshFormat::kVtkAscii:
+            return write_vtk(elements, format == MeshFormat::kVtkAscii);
+        default:
+            return write_vtu(elements);
+    }
+}
+
+}  // namespace
 
 std::string write_mesh(const TriangleMesh& mesh, MeshFormat format) {
     switch (format) {
@@ -17,25 +46,34 @@ std::string write_mesh(const TriangleMesh& mesh, MeshFormat format) {
             return write_ply_binary(mesh);
         case MeshFormat::kPlyAscii:
             return write_ply_ascii(mesh);
-        case MeshFormat::kMsh:
-        case MeshFormat::kMshAscii:
-            return write_msh_4(mesh, format == MeshFormat::kMshAscii);
-        case MeshFormat::kMsh2:
-        case MeshFormat::kMsh2Ascii:
-            return write_msh_2(mesh, format == MeshFormat::kMsh2Ascii);
-        case MeshFormat::kInp:
-            return write_inp(mesh);
-        case MeshFormat::kBdf:
-            return write_bdf(mesh);
-        case MeshFormat::kVtk:
-        case MeshFormat::kVtkAscii:
-            return write_vtk(mesh, format == MeshFormat::kVtkAscii);
-        case MeshFormat::kVtu:
-            return write_vtu(mesh);
         case MeshFormat::kOff:
+            return write_off(mesh);
+        default:
             break;
     }
-    return write_off(mesh);
+    return write_elements(Elements(mesh), format);
+}
+
+bool has_second_order(MeshFormat format) {
+    constexpr std::array kFormats{MeshFormat::kMsh,       MeshFormat::kMshAscii, MeshFormat::kMsh2,
+                                  MeshFormat::kMsh2Ascii, MeshFormat::kInp,      MeshFormat::kBdf,
+                                  MeshFormat::kVtk,       MeshFormat::kVtkAscii, MeshFormat::kVtu};
+    return std::find(kFormats.begin(), kFormats.end(), format) != kFormats.end();
+}
+
+Expected<std::string> write_second_order(const TriangleMesh& mesh, const MidsideNodes& nodes, MeshFormat format) {
+    if (has_second_order(format)) return write_elements(Elements(mesh, &nodes), format);
+    return Error{
+        Cause::kUnsupported,
+        std::string(format_name(format)) + " has no triangles of six nodes; accepted with order 2 are msh, inp, bdf, vtk and vtu",
+        "order"};
+}
+
+Status write_second_order_file(const TriangleMesh& mesh, const MidsideNodes& nodes, MeshFormat format,
+                               const std::filesystem::path& path) {
+    const Expected<std::string> bytes = write_second_order(mesh, nodes, format);
+    if (!bytes) return bytes.error();
+    return write_file(path, *bytes);
 }
 
 Status write_mesh_file(const TriangleMesh& mesh, MeshFormat format, const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/elements.h"
 #include "io/named_regions.h"
 #include "io/number_writer.h"
 #include "io/writers.h"
@@ -10,14 +11,17 @@
 namespace vsplit {
 namespace {
 
+// Of three nodes and of six.
 constexpr std::int32_t kTriangle = 2;
+constexpr std::int32_t kTriangle6 = 9;
 
 /// Writes the file section by section; regions are physical surfaces.
 class MshWriter {
 public:
-    MshWriter(const TriangleMesh& mesh, bool text)
-        : mesh_(mesh),
-          regions_(named_regions(mesh)),
+    MshWriter(const Elements& elements, bool text)
+        : elements_(elements),
+          mesh_(elements.mesh()),
+          regions_(named_regions(mesh_)),
           text_(text),
           out_(text ? NumberWriter::As::kText : NumberWriter::As::kLittleEndian) {}
 
@@ -110,13 +114,15 @@ private:
         out_.end_row();
     }
 
+    [[nodiscard]] std::int32_t type() const { return elements_.order_nodes() == 3 ? kTriangle : kTriangle6; }
+
     void put_counts(std::uint64_t blocks, std::uint64_t count) {
         for (const std::uint64_t n : {blocks, count, std::uint64_t{1}, count}) out_.put(n);
         out_.end_row();
     }
 
     void write_nodes_4() {
-        const std::uint64_t count = mesh_.positions.size();
+        const std::uint64_t count = elements_.node_count();
         out_ << "$Nodes\n";
         put_counts(1, count);
         for (const std::int32_t n : {2, 1, 0}) out_.put(n);  // on the first surface, not parametric
@@ -126,8 +132,8 @@ private:
             out_.put(tag);
             out_.end_row();
         }
-        for (const Vec3& position : mesh_.positions) {
-            out_.put(position);
+        for (std::uint64_t node = 0; node < count; ++node) {
+            out_.put(elements_.position(node));
             out_.end_row();
         }
         end_section("$EndNodes");
@@ -137,12 +143,12 @@ private:
         out_ << "$Elements\n";
         put_counts(regions_.size(), mesh_.faces.size());
         for (std::size_t i = 0; i < regions_.size(); ++i) {
-            for (const std::int32_t n : {std::int32_t{2}, static_cast<std::int32_t>(i + 1), kTriangle}) out_.put(n);
+            for (const std::int32_t n : {std::int32_t{2}, static_cast<std::int32_t>(i + 1), type()}) out_.put(n);
             out_.put(std::uint64_t{regions_[i].faces.size()});
             out_.end_row();
             for (const std::uint32_t f : regions_[i].faces) {
                 out_.put(std::uint64_t{f} + 1);
-                for (const std::uint32_t v : mesh_.faces[f]) out_.put(std::uint64_t{v} + 1);
+                for (std::uint32_t n = 0; n < elements_.order_nodes(); ++n) out_.put(std::uint64_t{elements_.node(f, n)} + 1);
                 out_.end_row();
             }
         }
@@ -150,10 +156,10 @@ private:
     }
 
     void write_nodes_2() {
-        out_ << "$Nodes\n" << std::to_string(mesh_.positions.size()) << "\n";
-        for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
+        out_ << "$Nodes\n" << std::to_string(elements_.node_count()) << "\n";
+        for (std::size_t v = 0; v < elements_.node_count(); ++v) {
             out_.put(static_cast<std::int32_t>(v + 1));
-            out_.put(mesh_.positions[v]);
+            out_.put(elements_.position(v));
             out_.end_row();
         }
         end_section("$EndNodes");
@@ -162,7 +168,7 @@ private:
     void write_elements_2() {
         out_ << "$Elements\n" << std::to_string(mesh_.faces.size()) << "\n";
         if (!text_ && !mesh_.faces.empty()) {
-            for (const std::int32_t n : {kTriangle, static_cast<std::int32_t>(mesh_.faces.size()), 2}) out_.put(n);
+            for (const std::int32_t n : {type(), static_cast<std::int32_t>(mesh_.faces.size()), 2}) out_.put(n);
         }
         for (std::size_t f = 0; f < mesh_.faces.size(); ++f) write_element_2(f);
         end_section("$EndElements");
@@ -172,13 +178,14 @@ private:
         const auto region = static_cast<std::int32_t>(mesh_.regions.empty() ? 0 : mesh_.regions[f]);
         out_.put(static_cast<std::int32_t>(f + 1));
         if (text_) {
-            for (const std::int32_t n : {kTriangle, 2}) out_.put(n);
+            for (const std::int32_t n : {type(), 2}) out_.put(n);
         }
         for (const std::int32_t n : {region, std::max(region, 1)}) out_.put(n);  // the geometric tag must not be 0
-        for (const std::uint32_t v : mesh_.faces[f]) out_.put(static_cast<std::int32_t>(v + 1));
+        for (std::uint32_t i = 0; i < elements_.order_nodes(); ++i) out_.put(static_cast<std::int32_t>(elements_.node(f, i) + 1));
         out_.end_row();
     }
 
+    const Elements& elements_;
     const TriangleMesh& mesh_;
     std::vector<NamedRegion> regions_;
     std::vector<std::pair<const FaceSet*, std::int32_t>> sets_;  // of several regions, and their tags
@@ -188,8 +195,8 @@ private:
 
 }  // namespace
 
-std::string write_msh_4(const TriangleMesh& mesh, bool text) { return MshWriter(mesh, text).write_4(); }
+std::string write_msh_4(const Elements& elements, bool text) { return MshWriter(elements, text).write_4(); }
 
-std::string write_msh_2(const TriangleMesh& mesh, bool text) { return MshWriter(mesh, text).write_2(); }
+std::string write_msh_2(const Elements& elements, bool text) { return MshWriter(elements, text).write_2(); }
 
 }  // namespace vsplit

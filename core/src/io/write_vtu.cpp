@@ -1,3 +1,4 @@
+#include "io/elements.h"
 #include "io/number_writer.h"
 #include "io/writers.h"
 
@@ -30,30 +31,30 @@ private:
 
 }  // namespace
 
-std::string write_vtu(const TriangleMesh& mesh) {
+std::string write_vtu(const Elements& elements) {
+    const TriangleMesh& mesh = elements.mesh();
+    const std::uint32_t nodes = elements.order_nodes();
+    const std::size_t points = elements.node_count();
     const std::uint64_t faces = mesh.faces.size();
     Arrays arrays;
     std::string text =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
         "header_type=\"UInt64\">\n  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"";
-    text.append(std::to_string(mesh.positions.size()))
-        .append("\" NumberOfCells=\"")
-        .append(std::to_string(faces))
-        .append("\">\n");
-    text += "      <Points>\n" + arrays.add("Float64", "Points", "3", 24 * mesh.positions.size(), [&](NumberWriter& out) {
-        for (const Vec3& position : mesh.positions) out.put(position);
+    text.append(std::to_string(points)).append("\" NumberOfCells=\"").append(std::to_string(faces)).append("\">\n");
+    text += "      <Points>\n" + arrays.add("Float64", "Points", "3", 24 * points, [&](NumberWriter& out) {
+        for (std::size_t node = 0; node < points; ++node) out.put(elements.position(node));
     }) + "      </Points>\n      <Cells>\n";
-    text += arrays.add("UInt32", "connectivity", "1", 12 * faces, [&](NumberWriter& out) {
-        for (const Triangle& face : mesh.faces) {
-            for (const std::uint32_t v : face) out.put(v);
+    text += arrays.add("UInt32", "connectivity", "1", 4 * nodes * faces, [&](NumberWriter& out) {
+        for (std::uint64_t f = 0; f < faces; ++f) {
+            for (std::uint32_t i = 0; i < nodes; ++i) out.put(elements.node(f, i));
         }
     });
     text += arrays.add("Int64", "offsets", "1", 8 * faces, [&](NumberWriter& out) {
-        for (std::uint64_t f = 1; f <= faces; ++f) out.put(static_cast<std::int64_t>(3 * f));
+        for (std::uint64_t f = 1; f <= faces; ++f) out.put(static_cast<std::int64_t>(nodes * f));
     });
-    constexpr std::uint8_t kTriangle = 5;
+    const std::uint8_t type = nodes == 3 ? 5 : 22;
     text += arrays.add("UInt8", "types", "1", faces, [&](NumberWriter& out) {
-        for (std::uint64_t f = 0; f < faces; ++f) out.put(kTriangle);
+        for (std::uint64_t f = 0; f < faces; ++f) out.put(type);
     });
     text += "      </Cells>\n";
     if (!mesh.regions.empty()) {

@@ -7,6 +7,8 @@
 
 namespace vsplit {
 
+class Elements;
+
 /// One writer a format; see write_mesh.
 
 [[nodiscard]] std::string write_stl_binary(const TriangleMesh& mesh);
@@ -15,12 +17,12 @@ namespace vsplit {
 [[nodiscard]] std::string write_ply_binary(const TriangleMesh& mesh);
 [[nodiscard]] std::string write_ply_ascii(const TriangleMesh& mesh);
 [[nodiscard]] std::string write_off(const TriangleMesh& mesh);
-[[nodiscard]] std::string write_msh_4(const TriangleMesh& mesh, bool text);
-[[nodiscard]] std::string write_msh_2(const TriangleMesh& mesh, bool text);
-[[nodiscard]] std::string write_inp(const TriangleMesh& mesh);
-[[nodiscard]] std::string write_bdf(const TriangleMesh& mesh);
-[[nodiscard]] std::string write_vtk(const TriangleMesh& mesh, bool text);
-[[nodiscard]] std::string write_vtu(const TriangleMesh& mesh);
+[[nodiscard]] std::string write_msh_4(const Elements& elements, bool text);
+[[nodiscard]] std::string write_msh_2(const Elements& elements, bool text);
+[[nodiscard]] std::string write_inp(const Elements& elements);
+[[nodiscard]] std::string write_bdf(const Elements& elements);
+[[nodiscard]] std::string write_vtk(const Elements& elements, bool text);
+[[nodiscard]] std::string write_vtu(const Elements& elements);
 
 /// The set of all elements in an input deck; a reader makes no region of it.
 inline constexpr std::string_view kAllElements = "Eall";

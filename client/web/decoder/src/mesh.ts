@@ -1,5 +1,6 @@
 import { CorruptError } from "./errors.js";
 import { largestCoordinate } from "./grid.js";
+import { UndoneRecords } from "./undone.js";
 
 const none = 0xffffffff;
 
@@ -36,6 +37,10 @@ export class ProgressiveMesh {
   level = 0;
   /** Records applied. */
   records = 0;
+  /** Told of every vertex that moved or whose ring changed, old and new, where it is set. */
+  touched: ((vertex: number) => void) | undefined;
+
+  private readonly undone = new UndoneRecords();
 
   private applied = new Uint8Array(1024);
   private edited = new Uint32Array(1024);
@@ -174,9 +179,13 @@ export class ProgressiveMesh {
     positions[3 * w + 2] = az;
     ++this.level;
     this.applied[this.records++] = Kind.Split;
+    if (this.touched) {
+      this.touched(v);
+      this.touched(w);
+    }
   }
 
-  private undoSplit(): void {
+  private undoSplit(keep: boolean): void {
     const { corners, twins } = this;
     const first = 3 * this.faceCount - 6;
     const v = corners[first]!;
@@ -184,9 +193,14 @@ export class ProgressiveMesh {
     const after = twins[first + 2]!;
     const before = twins[first + 4]!;
     const fanBegin = twins[first + 5]!;
-    for (let corner = fanBegin; ; corner = twins[prev(corner)]!) {
+    let steps = 1;
+    for (let corner = fanBegin; ; corner = twins[prev(corner)]!, ++steps) {
       corners[corner] = v;
       if (prev(corner) === fanEnd) break;
+    }
+    if (keep) {
+      const p = this.positions, k = 3 * v, a = 3 * (this.vertexCount - 1);
+      this.undone.push(Kind.Split, fanBegin, steps, p[k]!, p[k + 1]!, p[k + 2]!, p[a]!, p[a + 1]!, p[a + 2]!);
     }
     twins[fanEnd] = after;
     twins[after] = fanEnd;
@@ -200,6 +214,7 @@ export class ProgressiveMesh {
     this.cornerOf[corners[before]!] = before;
     this.restore(v);
     --this.level;
+    this.touched?.(v);
   }
 
   private valenceIsUnder4(corner: number): boolean {
@@ -230,8 +245,14 @@ export class ProgressiveMesh {
     if (this.valenceIsUnder4(h) || this.valenceIsUnder4(g)) throw new CorruptError("a flip at a valence under 4");
     if (this.areJoined(prev(h), this.corners[prev(g)]!)) throw new CorruptError("a flip to an edge that is there");
     this.turn(h, true);
+    this.touchQuad(h);
     this.edited[this.editedCount++] = h;
     this.applied[this.records++] = Kind.Flip;
+  }
+
+  private touchQuad(h: number): void {
+    if (!this.touched) return;
+    for (const corner of [h, prev(h), this.twins[h]!, prev(this.twins[h]!)]) this.touched(this.corners[corner]!);
   }
 
   private turn(h: number, clockwise: boolean): void {
@@ -276,28 +297,66 @@ export class ProgressiveMesh {
     this.positions[3 * v + 2] = z;
     this.edited[this.editedCount++] = v;
     this.applied[this.records++] = Kind.Move;
+    this.touched?.(v);
   }
 
-  private undoLast(): void {
+  private undoLast(keep: boolean): void {
     const kind = this.applied[--this.records]!;
     if (kind === Kind.Split) {
-      this.undoSplit();
+      this.undoSplit(keep);
       return;
     }
     const edited = this.edited[--this.editedCount]!;
-    if (kind === Kind.Flip) this.turn(edited, false);
-    else this.restore(edited);
+    if (kind === Kind.Flip) {
+      if (keep) this.undone.push(kind, edited, 0, 0, 0, 0);
+      this.turn(edited, false);
+      this.touchQuad(edited);
+    } else {
+      const p = this.positions, at = 3 * edited;
+      if (keep) this.undone.push(kind, edited, 0, p[at]!, p[at + 1]!, p[at + 2]!);
+      this.restore(edited);
+      this.touched?.(edited);
+    }
   }
 
-  /** Undoes records until `records` are left. */
+  /** Undoes records until `records` are left, for good. */
   rewind(records: number): void {
-    while (this.records > records) this.undoLast();
+    while (this.records > records) this.undoLast(false);
   }
 
-  /** Undoes the edits after the last split, then `levels` splits, each with the edits before it. */
+  /**
+   * Undoes the edits after the last split, then `levels` splits, each with the edits before it. They are kept for `refine`; blocks
+   * can be decoded again once all are back.
+   */
   coarsen(levels: number): void {
     const target = Math.max(0, this.level - levels);
-    while (this.records > 0 && (this.level > target || this.applied[this.records - 1] !== Kind.Split)) this.undoLast();
+    while (this.records > 0 && (this.level > target || this.applied[this.records - 1] !== Kind.Split)) this.undoLast(true);
+  }
+
+  /** Records that `coarsen` undid. */
+  get recordsUndone(): number {
+    return this.undone.count;
+  }
+
+  /** Applies records that `coarsen` undid, up to the split that makes `level`; all where there are none so far. */
+  refine(level: number): void {
+    const { undone } = this;
+    while (undone.count > 0 && this.level < level) this.redo();
+  }
+
+  /** Applies all that `coarsen` undid. */
+  refineAll(): void {
+    while (this.undone.count > 0) this.redo();
+  }
+
+  private redo(): void {
+    const { undone } = this;
+    const kind = undone.kind(), a = undone.number(0), b = undone.number(1);
+    const place = (n: number): number => undone.place(n);
+    if (kind === Kind.Split) this.split(a, b, place(0), place(1), place(2), place(3), place(4), place(5));
+    else if (kind === Kind.Flip) this.flip(a);
+    else this.move(a, place(0), place(1), place(2));
+    undone.pop();
   }
 
   /** The mesh without ghosts, as new arrays. */

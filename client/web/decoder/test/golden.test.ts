@@ -67,3 +67,43 @@ for (const name of names) {
     assert.equal(state(base), blocks[1]!.after);
   });
 }
+
+/** Corners and places of every face, to compare one by one. */
+function faceTexts(mesh: ProgressiveMesh): string[] {
+  return Array.from({ length: mesh.faceCount }, (_, f) => {
+    const corners = [...mesh.corners.subarray(3 * f, 3 * f + 3)];
+    return corners.map((v) => `${v}:${mesh.positions.subarray(3 * v, 3 * v + 3).join()}`).join(" ");
+  });
+}
+
+for (const name of names) {
+  test(`${name}: levels that were undone come back, and what changes is told`, () => {
+    const { base, grid, blocks } = read(name);
+    const decoder = new RecordDecoder(grid);
+    for (const { block } of blocks) decoder.decode(block, base);
+    const end = state(base), top = base.level, records = base.records;
+    const touched = new Set<number>();
+    base.touched = (v) => touched.add(v);
+    const states = new Map<number, string>();
+    let seed = 7;
+    for (let round = 0; round < 40; ++round) {
+      seed = (seed * 48271) % 2147483647;
+      const level = seed % (top + 1);
+      const before = faceTexts(base);
+      touched.clear();
+      if (level < base.level) base.coarsen(base.level - level);
+      else base.refine(level);
+      assert.equal(base.level, level);
+      assert.equal(base.records + base.recordsUndone, records);
+      faceTexts(base).forEach((text, f) => {
+        const told = [0, 1, 2].some((c) => touched.has(base.corners[3 * f + c]!));
+        assert.ok(text === before[f] || told, `face ${f} changed and was not told`);
+      });
+      const now = level < top ? state(base) : "";
+      if (states.has(level)) assert.equal(now, states.get(level));
+      states.set(level, now);
+    }
+    base.refineAll();
+    assert.equal(state(base), end);
+  });
+}

@@ -28,6 +28,8 @@ enum class Cause {
     kUnavailable,        ///< A server cannot be reached, or is shutting down.
     kCancelled,          ///< The caller asked to stop.
     kDeadlineExceeded,   ///< The caller's deadline passed.
+    kUnauthenticated,    ///< The call does not say who makes it, or not in a way that is believed.
+    kForbidden,          ///< Who makes the call may not do this.
     kInternal,           ///< A defect of this program.
 };
 

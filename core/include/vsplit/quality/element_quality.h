@@ -28,8 +28,9 @@ struct ElementQuality {
 
 /// Whose limits.
 enum class QualityProfile {
-    kStretch02,   ///< stretch: warning under 0.4, failure under 0.2 ([Date05] 3.3)
-    kVerdict,     ///< failure outside the acceptable ranges of the Verdict manual (Stimpson et al. 2007) for triangles
+    kStretch02,  ///< stretch: warning under 0.4, failure under 0.2 ([Date05] 3.3)
+    kVerdict,  ///< failure outside the acceptable ranges of the Verdict manual (Stimpson et al. 2007) for triangles, as PyVista's
+               ///< table of them has them too
     kOptistruct,  ///< warning and error limits of OptiStruct's element check for CTRIA3
 };
 

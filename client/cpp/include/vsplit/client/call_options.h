@@ -5,6 +5,8 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <string>
+#include <string_view>
 
 #include "vsplit/base/expected.h"
 #include "vsplit/io/mesh_format.h"
@@ -15,9 +17,22 @@
 
 namespace vsplit::client {
 
+/// For TlsOptions::ca: those that the machine trusts.
+inline constexpr std::string_view kSystemAuthorities = "system";
+
+/// Files of TLS, PEM each; all empty: a plain connection.
+struct TlsOptions {
+    std::string ca;    ///< authorities, one of which must have signed the server's certificate; or kSystemAuthorities
+    std::string cert;  ///< for a server that wants the client's certificate
+    std::string key;   ///< of `cert`
+};
+
 struct ConnectOptions {
     std::chrono::milliseconds timeout{5000};  ///< how long to try; a port that refuses is told at once
     std::stop_token stop;                     ///< as in CallOptions
+    TlsOptions tls{};
+    std::string token{};        ///< goes with every call; over a plain connection everybody on the way can read it
+    std::string traceparent{};  ///< goes with every call, as W3C's Trace Context has it; empty: none
 };
 
 /// What every call takes.

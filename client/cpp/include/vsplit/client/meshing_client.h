@@ -30,7 +30,8 @@ namespace vsplit::client {
 class MeshingClient {
 public:
     /// \param target "HOST:PORT", or "unix:PATH"
-    /// \return INVALID_OPTION (field "server") for another form; UNAVAILABLE, with the reason, when nobody answers.
+    /// \return INVALID_OPTION (field "server") for another form; UNAVAILABLE, with the reason, when nobody answers
+    ///         or TLS does not come about; FILE_ACCESS for a file of TLS.
     [[nodiscard]] static Expected<MeshingClient> connect(const std::string& target, const ConnectOptions& options = {});
 
     MeshingClient(MeshingClient&&) noexcept;
@@ -72,6 +73,12 @@ public:
                                                         const CallOptions& call = {});
 
     [[nodiscard]] Expected<v1::Quality> get_quality(const v1::GetQualityRequest& request, const CallOptions& call = {});
+
+    [[nodiscard]] Expected<v1::ListFeaturesResponse> list_features(const v1::ListFeaturesRequest& request,
+                                                                   const CallOptions& call = {});
+
+    [[nodiscard]] Expected<v1::RemoveFeaturesResponse> remove_features(const v1::RemoveFeaturesRequest& request,
+                                                                       const CallOptions& call = {});
 
 private:
     struct Impl;

@@ -1,0 +1,23 @@
+/** What the address keeps, so that a reload finds it again. */
+export interface Place {
+  session?: string;
+  representation?: string;
+  faces?: number;
+  name?: string;
+}
+
+export function readPlace(): Place {
+  const said = new URLSearchParams(location.hash.slice(1));
+  return {
+    session: said.get("session") ?? undefined,
+    representation: said.get("representation") ?? undefined,
+    faces: Number(said.get("faces")) || undefined,
+    name: said.get("name") ?? undefined,
+  };
+}
+
+export function writePlace(place: Place): void {
+  const said = new URLSearchParams();
+  for (const [name, value] of Object.entries(place)) if (value !== undefined) said.set(name, String(value));
+  history.replaceState(null, "", said.size > 0 ? `#${said}` : location.pathname);
+}

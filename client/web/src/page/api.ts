@@ -1,0 +1,54 @@
+import { fromJson, type DescMessage, type JsonValue, type MessageShape } from "@bufbuild/protobuf";
+import { QualitySchema, SessionSchema, type Quality, type Session } from "../gen/vsplit/v1/meshing_pb";
+import { problemFrom, problemOf, fail } from "../shared/problem";
+
+export interface UploadOptions {
+  repair: string;
+  weld: number;
+}
+
+function read<Schema extends DescMessage>(schema: Schema, json: JsonValue): MessageShape<Schema> {
+  return fromJson(schema, json, { ignoreUnknownFields: true });
+}
+
+async function get<Schema extends DescMessage>(schema: Schema, path: string): Promise<MessageShape<Schema>> {
+  const response = await fetch(path);
+  if (!response.ok) throw await problemOf(response);
+  return read(schema, (await response.json()) as JsonValue);
+}
+
+/** Creates a session with a mesh. XMLHttpRequest, since fetch does not tell how much has gone out. */
+export function upload(file: Blob, options: UploadOptions, sent: (share: number) => void, signal: AbortSignal): Promise<Session> {
+  const query = new URLSearchParams({ repair: options.repair, weld: String(options.weld) });
+  return new Promise((resolve, reject) => {
+    const request = new XMLHttpRequest();
+    request.open("POST", `/v1/sessions?${query}`);
+    request.setRequestHeader("Content-Type", "application/octet-stream");
+    request.upload.onprogress = (event) => sent(event.total > 0 ? event.loaded / event.total : 0);
+    request.onload = () => {
+      if (request.status === 200) resolve(read(SessionSchema, JSON.parse(request.responseText) as JsonValue));
+      else reject(problemFrom(request.status, request.responseText));
+    };
+    request.onerror = () => reject(fail("the server cannot be reached"));
+    request.onabort = () => reject(new DOMException("cancelled", "AbortError"));
+    signal.addEventListener("abort", () => request.abort());
+    request.send(file);
+  });
+}
+
+export const getSession = (id: string): Promise<Session> => get(SessionSchema, `/v1/sessions/${encodeURIComponent(id)}`);
+
+export function getQuality(session: string, representation: string, faces: number, worst: number): Promise<Quality> {
+  const query = new URLSearchParams({ worst: String(worst) });
+  if (representation) query.set("representation", representation);
+  if (faces > 0) query.set("faces", String(faces));
+  return get(QualitySchema, `/v1/sessions/${session}/quality?${query}`);
+}
+
+/** Where a mesh file is. `representation` "" is the upload. */
+export function meshPath(session: string, representation: string, faces: number, format: string): string {
+  const query = new URLSearchParams({ format });
+  if (representation) query.set("representation", representation);
+  if (representation && faces > 0) query.set("faces", String(faces));
+  return `/v1/sessions/${session}/mesh?${query}`;
+}

@@ -1,0 +1,24 @@
+type Child = Node | string | undefined;
+type Attributes = Record<string, string | number | boolean | EventListener | undefined>;
+
+/** An element with attributes (functions listen, `true` is an empty one, `false` and undefined none) and children. */
+export function element<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[Tag] {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === "function") made.addEventListener(name, value);
+    else if (value !== undefined && value !== false) made.setAttribute(name, value === true ? "" : String(value));
+  }
+  made.append(...children.filter((child) => child !== undefined));
+  return made;
+}
+
+/** One that the page has. */
+export function find<Kind extends HTMLElement>(id: string): Kind {
+  const found = document.getElementById(id);
+  if (!found) throw new Error(`the page has no #${id}`);
+  return found as Kind;
+}
+
+const whole = new Intl.NumberFormat("en");
+export const count = (value: number): string => whole.format(value);
+export const figure = (value: number, digits = 4): string => (Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : "none");

@@ -1,0 +1,97 @@
+import { element } from "./dom";
+import { labelOf, type Option } from "./schema";
+
+/** Options that most people set; the others are folded away. */
+const first = ["subdivisionSize", "tolerance", "maxDeviation", "faces", "subdivisions", "minStretch", "maxSize", "maxValence"];
+
+type Field = HTMLInputElement | HTMLSelectElement;
+
+/** The form of a method, made from the contract. */
+export class MethodForm {
+  private readonly fields: { option: Option; field: Field }[] = [];
+  private readonly run: HTMLButtonElement;
+
+  constructor(private readonly form: HTMLFormElement, verb: string, options: Option[], start: (body: object) => void) {
+    const rows = options.map((option) => this.row(option));
+    const shown = rows.filter((_, n) => first.includes(options[n]!.path[0]!));
+    const folded = rows.filter((_, n) => !first.includes(options[n]!.path[0]!));
+    this.run = element("button", { type: "submit", disabled: true }, verb);
+    form.noValidate = true;
+    form.append(...shown, element("details", {}, element("summary", {}, "More options"), ...folded), this.run);
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      if (!this.run.disabled && this.check()) start(this.options());
+    });
+  }
+
+  set enabled(value: boolean) {
+    this.run.disabled = !value;
+  }
+
+  /** Points at the field that the server says is at fault. */
+  blame(name: string | undefined): void {
+    const last = name?.split(".").at(-1)?.replace(/_([a-z])/g, (_, letter: string) => letter.toUpperCase());
+    for (const { option, field } of this.fields) {
+      const guilty = option.path.at(-1) === last;
+      field.toggleAttribute("aria-invalid", guilty);
+      if (guilty) {
+        field.closest("details")?.setAttribute("open", "");
+        field.focus();
+      }
+    }
+  }
+
+  private row(option: Option): HTMLElement {
+    const id = `${this.form.id}-${option.path.join("-")}`;
+    const field = this.fieldOf(option, id);
+    this.fields.push({ option, field });
+    const help = element("p", { id: `${id}-help`, class: "help", hidden: true }, option.help);
+    const tell = element("button", { type: "button", class: "ask", "aria-expanded": "false", "aria-controls": `${id}-help`, "aria-label": `What ${labelOf(option.path)} means` }, "?");
+    tell.addEventListener("click", () => {
+      help.hidden = !help.hidden;
+      tell.setAttribute("aria-expanded", String(!help.hidden));
+    });
+    const unit = option.unit ? element("span", { class: "unit" }, option.unit) : undefined;
+    return element("div", { class: "field" }, element("label", { for: id }, labelOf(option.path), unit), field, tell, help);
+  }
+
+  private fieldOf(option: Option, id: string): Field {
+    const help = `${id}-help`;
+    if (option.kind === "flag") return element("input", { id, type: "checkbox", "aria-describedby": help });
+    if (option.kind === "choice") {
+      const field = element("select", { id, "aria-describedby": help });
+      for (const choice of option.choices) {
+        const none = choice.endsWith("UNSPECIFIED");
+        field.append(element("option", { value: none ? "" : choice }, none ? "default" : choice.toLowerCase().replace(/_/g, " ")));
+      }
+      return field;
+    }
+    const standard = option.standard.length > 26 ? "default" : option.standard;
+    return element("input", { id, type: "number", step: option.kind === "whole" ? 1 : "any", placeholder: standard || "default", title: option.standard, inputmode: "decimal", "aria-describedby": help });
+  }
+
+  /** What the server cannot know: that a field holds no number at all. */
+  private check(): boolean {
+    const bad = this.fields.find(({ field }) => field instanceof HTMLInputElement && field.validity.badInput);
+    bad?.field.focus();
+    return bad === undefined;
+  }
+
+  private options(): object {
+    const options: Record<string, unknown> = {};
+    for (const { option, field } of this.fields) {
+      const value = valueOf(option, field);
+      if (value === undefined) continue;
+      let to = options;
+      for (const name of option.path.slice(0, -1)) to = (to[name] ??= {}) as Record<string, unknown>;
+      to[option.path.at(-1)!] = value;
+    }
+    return options;
+  }
+}
+
+function valueOf(option: Option, field: Field): unknown {
+  if (option.kind === "flag") return (field as HTMLInputElement).checked || undefined;
+  if (field.value === "") return undefined;
+  return option.kind === "choice" ? field.value : Number(field.value);
+}

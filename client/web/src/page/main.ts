@@ -1,0 +1,123 @@
+import type { ColourBy } from "../shared/colours";
+import { upload } from "./api";
+import { element, find } from "./dom";
+import { MethodForm } from "./form";
+import { hideProblem, problemText, showProblem } from "./problems";
+import { ProgressBar } from "./progress";
+import { formatsOf, methodOptions, type Contract } from "./schema";
+import { startTheme } from "./theme";
+import { Viewer, type View } from "./viewer";
+import { Workbench } from "./workbench";
+
+const samples = ["bracket.stl", "scan.ply"];
+
+const viewer = new Viewer(find("canvas"));
+const forms: MethodForm[] = [];
+let started: MethodForm | undefined;
+const bench = new Workbench(viewer, (ready, problem) => {
+  for (const form of forms) form.enabled = ready;
+  if (problem?.field) started?.blame(problem.field);
+  updateDownload();
+});
+
+function updateDownload(): void {
+  const link = find<HTMLAnchorElement>("download");
+  const path = bench.file(find<HTMLSelectElement>("format").value);
+  link.setAttribute("aria-disabled", String(path === undefined));
+  if (path) link.href = path;
+}
+
+async function send(file: Blob, name: string): Promise<void> {
+  hideProblem();
+  const stop = new AbortController();
+  const progress = new ProgressBar(find("upload"), () => stop.abort());
+  progress.show("upload", 0);
+  try {
+    const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(find<HTMLInputElement>("weld").value) || 0 };
+    const session = await upload(file, options, (share) => progress.show(share < 1 ? "upload" : "inspect", share), stop.signal);
+    bench.open(session, name);
+  } catch (error) {
+    showProblem(problemText(error));
+  } finally {
+    progress.hide();
+  }
+}
+
+function startUpload(): void {
+  const input = find<HTMLInputElement>("file");
+  const take = (files: FileList | null | undefined): void => {
+    const file = files?.[0];
+    if (file) void send(file, file.name);
+  };
+  input.addEventListener("change", () => {
+    take(input.files);
+    input.value = "";
+  });
+  const body = document.body;
+  body.addEventListener("dragover", (event) => {
+    event.preventDefault();
+    body.classList.add("dragging");
+  });
+  body.addEventListener("dragleave", (event) => {
+    if (event.relatedTarget === null) body.classList.remove("dragging");
+  });
+  body.addEventListener("drop", (event) => {
+    event.preventDefault();
+    body.classList.remove("dragging");
+    take(event.dataTransfer?.files);
+  });
+  for (const name of samples) {
+    const button = element("button", { type: "button", class: "quiet" }, name);
+    button.addEventListener("click", async () => {
+      const response = await fetch(`samples/${name}`);
+      if (response.ok) await send(await response.blob(), name);
+      else showProblem({ cause: "NOT_FOUND", detail: `the server has no sample ${name}` });
+    });
+    find("samples").append(button);
+  }
+}
+
+function startTools(): void {
+  find("view").addEventListener("change", (event) => viewer.show((event.target as HTMLSelectElement).value as View));
+  find("colour").addEventListener("change", (event) => bench.colour((event.target as HTMLSelectElement).value as ColourBy));
+  find("edges").addEventListener("change", (event) => viewer.showEdges((event.target as HTMLInputElement).checked));
+  find("fit").addEventListener("click", () => viewer.fit());
+  const axis = find<HTMLSelectElement>("cut-axis"), share = find<HTMLInputElement>("cut");
+  const cut = (): void => {
+    share.disabled = axis.value === "";
+    viewer.cut(axis.value === "" ? undefined : Number(axis.value), Number(share.value));
+  };
+  viewer.uncut = () => {
+    axis.value = "";
+    cut();
+  };
+  axis.addEventListener("change", cut);
+  share.addEventListener("input", cut);
+  viewer.cut(undefined, 1);
+}
+
+async function startForms(): Promise<void> {
+  const response = await fetch("openapi.json");
+  const contract = (await response.json()) as Contract;
+  for (const verb of ["improve", "control"] as const) {
+    const title = verb === "improve" ? "Improve" : "Control";
+    const form: MethodForm = new MethodForm(find<HTMLFormElement>(verb), title, methodOptions(contract, `${title}Options`), (options) => {
+      hideProblem();
+      for (const other of forms) other.blame(undefined);
+      started = form;
+      bench.run(verb, options);
+    });
+    forms.push(form);
+  }
+  const format = find<HTMLSelectElement>("format");
+  for (const name of formatsOf(contract)) format.append(element("option", { value: name }, name.toLowerCase().replace(/_/g, " ")));
+  format.addEventListener("change", updateDownload);
+  for (const form of forms) form.enabled = bench.ready;
+}
+
+startTheme((background) => viewer.background(background));
+startUpload();
+startTools();
+startForms()
+  .then(() => bench.reopen())
+  .catch((error: unknown) => showProblem(problemText(error)));

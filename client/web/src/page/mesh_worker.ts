@@ -1,0 +1,31 @@
+import type { News, Order } from "../shared/protocol";
+
+/** A worker that holds one of the two meshes. */
+export class MeshWorker {
+  private readonly worker = new Worker(new URL("../worker/worker.ts", import.meta.url), { type: "module", name: "mesh" });
+
+  private orders = 0;
+
+  /** `heard` is called when `busy` is up to date. */
+  constructor(heard: (news: News) => void) {
+    this.worker.onmessage = ({ data }: MessageEvent<News>) => {
+      if (data.kind === "idle") --this.orders;
+      heard(data);
+    };
+    this.worker.onerror = (event) => heard({ kind: "problem", problem: { cause: "INTERNAL", detail: event.message || "the worker could not be started" } });
+  }
+
+  /** Whether it still has orders to carry out. */
+  get busy(): boolean {
+    return this.orders > 0;
+  }
+
+  tell(order: Order): void {
+    ++this.orders;
+    this.worker.postMessage(order);
+  }
+
+  end(): void {
+    this.worker.terminate();
+  }
+}

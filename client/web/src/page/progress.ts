@@ -1,0 +1,36 @@
+import { count, element, find } from "./dom";
+
+const stages: Record<string, string> = {
+  upload: "Uploading",
+  queued: "Waiting for its turn",
+  inspect: "Inspecting",
+  subdivide: "Subdividing",
+  evaluate: "Evaluating edges",
+  simplify: "Simplifying",
+  measure: "Measuring the deviation",
+};
+
+/** A bar with what is done, and a button that ends it. */
+export class ProgressBar {
+  private readonly bar = element("progress", { max: 1, value: 0, "aria-label": "Progress" });
+  private readonly words = element("span");
+  private readonly box: HTMLElement;
+
+  constructor(private readonly place: HTMLElement, cancel: () => void) {
+    const button = element("button", { type: "button", class: "quiet" }, "Cancel");
+    button.addEventListener("click", cancel);
+    this.box = element("div", { class: "progress" }, this.words, this.bar, button);
+  }
+
+  show(stage: string, fraction: number, faces = 0): void {
+    this.words.textContent = (stages[stage] ?? stage) + (faces > 0 ? `, ${count(faces)} faces` : "");
+    this.bar.value = fraction;
+    if (!this.box.isConnected) this.place.append(this.box);
+  }
+
+  hide(): void {
+    this.box.remove();
+  }
+}
+
+export const workPlace = (): HTMLElement => find("work");

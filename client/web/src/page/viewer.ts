@@ -1,0 +1,198 @@
+import { AmbientLight, Color, ColorManagement, DirectionalLight, LinearSRGBColorSpace, Mesh, MeshBasicMaterial, PerspectiveCamera, Plane, Scene, SphereGeometry, Vector3, WebGLRenderer } from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { Patch, Point } from "../shared/protocol";
+import { Faces } from "./faces";
+import { faceMaterial } from "./material";
+
+export type Slot = "source" | "result";
+export type View = Slot | "both";
+
+const step = 0.08;
+
+// Colours go to the screen as the legend shows them.
+ColorManagement.enabled = false;
+
+/** Input and result, side by side or one of them, with one camera for both. Draws when something has changed. */
+export class Viewer {
+  private readonly renderer = new WebGLRenderer({ antialias: true });
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(35, 1, 0.01, 1000);
+  private readonly controls: OrbitControls;
+  private readonly cutPlane = new Plane(new Vector3(1, 0, 0), Number.MAX_VALUE);
+  private readonly edges = { value: 1 };
+  private readonly faces: Record<Slot, Faces>;
+  private readonly marker = new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ color: 0xff00c8, depthTest: false, transparent: true, opacity: 0.85 }));
+  /** Called where the cut hides what is flown to. */
+  uncut: () => void = () => undefined;
+  private half = new Vector3(1, 1, 1);
+  private view: View = "both";
+  private asked = false;
+  private moved = false;
+  private drawn: (() => void)[] = [];
+
+  constructor(private readonly place: HTMLElement) {
+    const material = faceMaterial(this.cutPlane, this.edges);
+    this.faces = { source: new Faces(material), result: new Faces(material) };
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
+    this.renderer.localClippingEnabled = true;
+    this.renderer.sortObjects = false;
+    this.renderer.autoClear = false;
+    this.marker.visible = false;
+    const light = new DirectionalLight(0xffffff, 2.2);
+    light.position.set(0.4, 0.7, 1);
+    this.camera.add(light);
+    this.scene.add(new AmbientLight(0xffffff, 1.1), this.camera, this.faces.source.mesh, this.faces.result.mesh, this.marker);
+    place.append(this.renderer.domElement);
+    place.dataset["view"] = this.view;
+    this.renderer.domElement.setAttribute("aria-hidden", "true");
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.addEventListener("change", () => this.ask());
+    this.controls.addEventListener("start", () => (this.moved = true));
+    place.addEventListener("keydown", (event) => this.key(event));
+    new ResizeObserver(() => this.resize()).observe(place);
+    this.resize();
+  }
+
+  /** Half the edges of the box around the part, which lies around the origin. */
+  frame(half: Point): void {
+    this.half = new Vector3(...half);
+    this.fit();
+  }
+
+  fit(): void {
+    const radius = Math.max(this.half.length(), 1e-9);
+    this.camera.near = radius / 500;
+    this.camera.far = radius * 50;
+    this.marker.visible = false;
+    this.moved = false;
+    const up = (this.camera.fov * Math.PI) / 360;
+    const narrower = Math.min(up, Math.atan(Math.tan(up) * this.camera.aspect));
+    this.aim(new Vector3(), new Vector3(0.55, 0.4, 1).normalize().multiplyScalar((radius * 1.02) / Math.sin(narrower)));
+  }
+
+  /** To a point of a mesh, from outside of its surface, so near that `size` is well seen. */
+  fly(slot: Slot, point: Point, size: number): void {
+    if (this.view !== "both" && this.view !== slot) this.show(slot);
+    const target = new Vector3(...point);
+    if (this.cutPlane.distanceToPoint(target) < 0) this.uncut();
+    const away = this.camera.position.clone().sub(this.controls.target).normalize();
+    const normal = this.faces[slot].normalAt(target);
+    // Not quite along the normal: from there a surface looks flat.
+    if (normal) away.multiplyScalar(0.45).addScaledVector(normal, away.dot(normal) < -0.9 ? 2 : 1).normalize();
+    const radius = Math.max(this.half.length(), 1e-9);
+    this.marker.position.copy(target);
+    this.marker.scale.setScalar(Math.max(size, radius * 1e-4) * 0.12);
+    this.marker.visible = true;
+    this.moved = true;
+    this.camera.near = Math.min(radius / 500, size / 10 + radius * 1e-6);
+    this.aim(target, away.multiplyScalar(Math.max(12 * size, radius * 0.002)));
+  }
+
+  apply(slot: Slot, patch: Patch): void {
+    this.faces[slot].apply(patch);
+    this.place.dataset[slot] = String(patch.visible);
+    this.ask();
+  }
+
+  clear(slot: Slot): void {
+    this.faces[slot].mesh.visible = false;
+    delete this.place.dataset[slot];
+    this.ask();
+  }
+
+  show(view: View): void {
+    this.view = view;
+    this.place.dataset["view"] = view;
+    this.resize();
+  }
+
+  showEdges(shown: boolean): void {
+    this.edges.value = shown ? 1 : 0;
+    this.ask();
+  }
+
+  /** Hides what lies beyond `share` of the part along an axis; no axis: nothing. */
+  cut(axis: number | undefined, share: number): void {
+    this.cutPlane.normal.set(axis === 0 ? -1 : 0, axis === 1 ? -1 : 0, axis === 2 ? -1 : 0);
+    this.cutPlane.constant = axis === undefined ? 1 : (2 * share - 1) * this.half.getComponent(axis) * 1.001;
+    this.ask();
+  }
+
+  background(colour: string): void {
+    this.scene.background = null;
+    this.renderer.setClearColor(new Color(colour));
+    this.ask();
+  }
+
+  /** When what was asked for last is on the screen. */
+  afterDraw(): Promise<void> {
+    return new Promise((resolve) => {
+      this.drawn.push(resolve);
+      this.ask();
+    });
+  }
+
+  private aim(target: Vector3, away: Vector3): void {
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).add(away);
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.ask();
+  }
+
+  private key(event: KeyboardEvent): void {
+    const around: Record<string, [number, number]> = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
+    const zoom: Record<string, number> = { "+": 0.9, "=": 0.9, "-": 1.1 };
+    const away = this.camera.position.clone().sub(this.controls.target);
+    const turn = around[event.key];
+    if (turn) {
+      away.applyAxisAngle(this.camera.up, turn[0]);
+      const side = new Vector3().crossVectors(this.camera.up, away).normalize();
+      away.applyAxisAngle(side, turn[1]);
+    } else if (zoom[event.key]) {
+      away.multiplyScalar(zoom[event.key]!);
+    } else if (event.key === "f") {
+      return this.fit();
+    } else {
+      return;
+    }
+    event.preventDefault();
+    this.moved = true;
+    this.aim(this.controls.target.clone(), away);
+  }
+
+  private ask(): void {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.draw();
+      for (const resolve of this.drawn.splice(0)) resolve();
+    });
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    if (width === 0 || height === 0) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height);
+    this.camera.aspect = (this.view === "both" ? width / 2 : width) / height;
+    this.camera.updateProjectionMatrix();
+    if (this.moved) this.ask();
+    else this.fit();
+  }
+
+  private draw(): void {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    const shown: Slot[] = this.view === "both" ? ["source", "result"] : [this.view];
+    this.renderer.setScissorTest(true);
+    shown.forEach((slot, n) => {
+      const left = Math.floor((n * width) / shown.length), across = Math.ceil(width / shown.length);
+      this.renderer.setViewport(left, 0, across, height);
+      this.renderer.setScissor(left, 0, across, height);
+      this.renderer.clear();
+      for (const other of ["source", "result"] as const) this.faces[other].mesh.visible = other === slot && this.place.dataset[other] !== undefined;
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
+}

@@ -1,0 +1,226 @@
+import { fromJson, type JsonValue } from "@bufbuild/protobuf";
+import { RepresentationSchema, type Representation, type Session } from "../gen/vsplit/v1/meshing_pb";
+import type { ColourBy } from "../shared/colours";
+import type { Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
+import { getQuality, getSession, meshPath } from "./api";
+import { readPlace, writePlace } from "./address";
+import { count, find } from "./dom";
+import { legend } from "./legend";
+import { findingList, resultNotes, worstList } from "./lists";
+import { MeshWorker } from "./mesh_worker";
+import { problemText, showProblem } from "./problems";
+import { ProgressBar, workPlace } from "./progress";
+import { qualityTable, spreadTable, stretchHistogram } from "./quality_panel";
+import { ResolutionSlider } from "./resolution";
+import type { Slot, Viewer } from "./viewer";
+
+const worstFaces = 20;
+
+/** For measurements: what the last change of resolution took. */
+function stepText(patch: Patch): string {
+  return `${patch.records} records, ${patch.positions.length / 9} faces, ${patch.milliseconds.toFixed(1)} ms`;
+}
+
+/** The session that is open: its two meshes, what is known of them, and what is shown. */
+export class Workbench {
+  private session: Session | undefined;
+  private name = "";
+  private made: Representation | undefined;
+  private faces = 0;
+  private centre: Point = [0, 0, 0];
+  private diagonal = 1;
+  private readonly figures: Partial<Record<Slot, Figures>> = {};
+  private fresh = false;
+  private by: ColourBy = "stretch";
+  private source = this.worker("source");
+  private result = this.worker("result");
+  private readonly progress = new ProgressBar(workPlace(), () => this.result.tell({ kind: "cancel" }));
+  private readonly slider = new ResolutionSlider((faces) => this.order({ kind: "faces", faces }));
+
+  /** `changed`: when methods can be run or not. */
+  constructor(private readonly viewer: Viewer, private readonly changed: (ready: boolean, problem?: ProblemText) => void) {}
+
+  get ready(): boolean {
+    return this.session?.source !== undefined;
+  }
+
+  /** What the address names, if it is still there. */
+  async reopen(): Promise<void> {
+    const place = readPlace();
+    if (!place.session) return;
+    const session = await getSession(place.session);
+    this.open(session, place.name ?? "");
+    const made = session.representations.find((one) => one.id === place.representation) ?? session.representations.at(-1);
+    if (!made) return;
+    this.made = made;
+    writePlace({ session: session.id, representation: made.id, faces: place.faces ?? made.faces, name: this.name });
+    this.showNotes();
+    this.order({ kind: "open", session: session.id, representation: made.id, faces: place.faces ?? made.faces, centre: this.centre });
+  }
+
+  /** A session whose mesh was just uploaded. */
+  open(session: Session, name: string): void {
+    this.source.end();
+    this.result.end();
+    this.source = this.worker("source");
+    this.result = this.worker("result");
+    for (const worker of [this.source, this.result]) worker.tell({ kind: "colour", by: this.by });
+    this.session = session;
+    this.name = name;
+    this.made = undefined;
+    delete this.figures.source;
+    delete this.figures.result;
+    this.viewer.clear("source");
+    this.viewer.clear("result");
+    this.slider.off();
+    find("stage").setAttribute("aria-busy", "false");
+    const box = session.source!.boundingBox!;
+    const low = [box.min!.x, box.min!.y, box.min!.z], high = [box.max!.x, box.max!.y, box.max!.z];
+    this.centre = low.map((v, axis) => (v + high[axis]!) / 2) as unknown as Point;
+    const half = low.map((v, axis) => (high[axis]! - v) / 2) as unknown as Point;
+    this.diagonal = 2 * Math.hypot(...half);
+    this.viewer.frame(half);
+    this.source.tell({ kind: "source", path: meshPath(session.id, "", 0, "PLY"), centre: this.centre });
+    writePlace({ session: session.id, name });
+    this.showSummary();
+    this.showNotes();
+    this.showQuality();
+    void this.showWorst();
+    this.changed(true);
+  }
+
+  run(verb: "improve" | "control", options: object): void {
+    if (!this.session) return;
+    const body: Record<string, unknown> = { options };
+    // Control is for meshes that were improved; improve begins anew.
+    if (verb === "control" && this.made) body["source"] = { representation: this.made.id, faces: this.faces };
+    this.changed(false);
+    this.slider.off();
+    this.progress.show("queued", 0);
+    this.order({ kind: "method", path: `/v1/sessions/${this.session.id}:${verb}`, body, centre: this.centre });
+  }
+
+  colour(by: ColourBy): void {
+    this.by = by;
+    this.source.tell({ kind: "colour", by });
+    this.result.tell({ kind: "colour", by });
+  }
+
+  /** Where the mesh that is shown can be had as a file. */
+  file(format: string): string | undefined {
+    return this.session ? meshPath(this.session.id, this.made?.id ?? "", this.faces, format) : undefined;
+  }
+
+  private order(order: Order): void {
+    find("stage").setAttribute("aria-busy", "true");
+    this.result.tell(order);
+  }
+
+  private worker(slot: Slot): MeshWorker {
+    const own: MeshWorker = new MeshWorker((news) => {
+      // What an older worker still had to say is about another mesh.
+      if (own === this[slot]) this.hear(slot, news);
+    });
+    return own;
+  }
+
+  private hear(slot: Slot, news: News): void {
+    switch (news.kind) {
+      case "patch":
+        if (slot === "source") {
+          this.viewer.apply(slot, news.patch);
+        } else {
+          this.draw(news.patch);
+          this.faces = news.patch.visible;
+          this.slider.tell(this.faces);
+          if (news.patch.records > 0) find("canvas").dataset["step"] = stepText(news.patch);
+        }
+        return;
+      case "figures":
+        this.figures[slot] = news.figures;
+        this.showQuality();
+        if (slot === "result" || !this.made) find("legend").replaceChildren(legend(this.by, news.range));
+        if (slot === "result" && this.made) this.settle();
+        return;
+      case "progress":
+        performance.mark("vsplit method ended"); // unless another comes
+        this.fresh = true;
+        return this.progress.show(news.stage, news.fraction, news.faces);
+      case "representation":
+        return this.take(fromJson(RepresentationSchema, news.json as JsonValue));
+      case "problem":
+        showProblem(news.problem);
+        return this.changed(this.ready, news.problem);
+      case "idle":
+        if (slot === "source" || this.result.busy) return;
+        find("stage").setAttribute("aria-busy", "false");
+        this.progress.hide();
+        if (this.made) this.slider.set(this.made.facesMin, this.made.facesMax, this.faces);
+        return this.changed(this.ready);
+    }
+  }
+
+  private take(made: Representation): void {
+    const another = made.id !== this.made?.id;
+    // Other resolutions come without what was measured at the one asked for.
+    this.made = another ? made : Object.assign(this.made!, { facesMin: made.facesMin, facesMax: made.facesMax });
+    this.slider.set(made.facesMin, made.facesMax, made.faces);
+    this.showNotes();
+    this.showQuality();
+    this.settle();
+  }
+
+  /** With marks in the browser's timeline: what a change costs, and when it is seen. */
+  private draw(patch: Patch): void {
+    const begun = performance.now();
+    this.viewer.apply("result", patch);
+    performance.measure("vsplit copied", { start: begun });
+    const first = this.fresh;
+    this.fresh = false;
+    void this.viewer.afterDraw().then(() => {
+      if (first) performance.mark("vsplit drawn first");
+      performance.mark("vsplit drawn");
+    });
+  }
+
+  /** The mesh stays as it is for now: the address names it, and its worst faces are asked for. */
+  private settle(): void {
+    writePlace({ session: this.session!.id, representation: this.made!.id, faces: this.faces, name: this.name });
+    void this.showWorst();
+  }
+
+  private async showWorst(): Promise<void> {
+    const session = this.session!.id, made = this.made?.id ?? "", faces = this.faces;
+    try {
+      const quality = await getQuality(session, made, faces, worstFaces);
+      if (session !== this.session?.id || made !== (this.made?.id ?? "") || (made && faces !== this.faces)) return;
+      find("worst").replaceChildren(worstList(quality.worstFaces, (place, size) => this.fly(made ? "result" : "source", place, size)));
+    } catch (error) {
+      showProblem(problemText(error));
+    }
+  }
+
+  private fly(slot: Slot, place: Point, size: number): void {
+    this.viewer.fly(slot, place.map((v, axis) => v - this.centre[axis]!) as unknown as Point, size);
+  }
+
+  private showQuality(): void {
+    const columns = { ...this.figures, deviation: this.made?.faces === this.faces ? this.made.quality?.deviationMax : undefined };
+    find("table").replaceChildren(qualityTable(columns), spreadTable(columns));
+    find("histogram").replaceChildren(stretchHistogram(columns));
+  }
+
+  private showNotes(): void {
+    const findings = findingList(this.session?.source?.findings ?? [], this.diagonal / 100, (place, size) => this.fly("source", place, size));
+    const notes = [...(this.made ? resultNotes(this.made) : []), ...findings];
+    find("notes").replaceChildren(...(notes.length > 0 ? notes : ["Nothing to report."]));
+  }
+
+  private showSummary(): void {
+    const { source } = this.session!;
+    const kind = source!.closed ? `closed, genus ${source!.genus}` : `${count(source!.boundaryEdges)} boundary edges`;
+    const pieces = source!.components === 1 ? "1 piece" : `${count(source!.components)} pieces`;
+    find("part").textContent = this.name || `session ${this.session!.id}`;
+    find("summary").textContent = `${count(source!.faces)} faces, ${count(source!.vertices)} vertices; ${pieces}, ${kind}.`;
+  }
+}

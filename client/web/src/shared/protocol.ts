@@ -1,0 +1,63 @@
+import type { ColourBy } from "./colours";
+
+/** What went wrong, as problem+json tells it. */
+export interface ProblemText {
+  cause: string;
+  detail: string;
+  field?: string;
+  retryAfter?: number;
+}
+
+export type Point = readonly [number, number, number];
+
+/** Least, mean and largest of a figure; zeros where there is nothing. */
+export type Spread = readonly [min: number, mean: number, max: number];
+
+/** Figures of the mesh as a worker holds it. */
+export interface Figures {
+  faces: number;
+  stretchMin: number;
+  stretchMean: number;
+  facesBelow02: number;
+  sizeMax: number;
+  valenceMax: number;
+  /** 20 counts: faces with stretch in [i/20, (i+1)/20). */
+  histogram: number[];
+  /** Of faces: stretch, and longest edge; of vertices: edges. */
+  spread: { stretch: Spread; size: Spread; valence: Spread };
+}
+
+/** Faces to draw anew: runs of them, and the bytes of all runs one after the other. Three corners a face, no index. */
+export interface Patch {
+  /** Places for faces that are drawn; those of ghosts are drawn as nothing. */
+  slots: number;
+  /** First and count, by turns. */
+  runs: Uint32Array;
+  /** 9 floats a face. */
+  positions: Float32Array;
+  /** 9 bytes a face. */
+  colours: Uint8Array;
+  /** Faces that are seen. */
+  visible: number;
+  /** Milliseconds that the worker took, and the records it applied or undid. */
+  milliseconds: number;
+  records: number;
+}
+
+/** The page to a worker. */
+export type Order =
+  | { kind: "source"; path: string; centre: Point }
+  | { kind: "method"; path: string; body: object; centre: Point }
+  | { kind: "open"; session: string; representation: string; faces: number; centre: Point }
+  | { kind: "faces"; faces: number }
+  | { kind: "colour"; by: ColourBy }
+  | { kind: "cancel" };
+
+/** A worker to the page. */
+export type News =
+  | { kind: "progress"; stage: string; fraction: number; faces: number }
+  | { kind: "patch"; patch: Patch }
+  | { kind: "figures"; figures: Figures; range: readonly [number, number] }
+  | { kind: "representation"; json: unknown }
+  | { kind: "problem"; problem: ProblemText }
+  | { kind: "idle" };

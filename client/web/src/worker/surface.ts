@@ -1,0 +1,53 @@
+/** A mesh as the workers look at it: a ProgressiveMesh, or one read from a file. */
+export interface Surface {
+  readonly vertexCount: number;
+  readonly faceCount: number;
+  /** Vertices 0 to ghosts - 1 close boundaries; their faces are not seen. */
+  readonly ghosts: number;
+  readonly positions: Float64Array;
+  readonly corners: Uint32Array;
+}
+
+export function isSeen({ corners, ghosts }: Surface, face: number): boolean {
+  if (ghosts === 0) return true;
+  const at = 3 * face;
+  return corners[at]! >= ghosts && corners[at + 1]! >= ghosts && corners[at + 2]! >= ghosts;
+}
+
+/** Stretch and longest edge of a face, without making anything. */
+export class FaceShape {
+  stretch = 0;
+  size = 0;
+
+  measure({ positions, corners }: Surface, face: number): void {
+    const a = 3 * corners[3 * face]!, b = 3 * corners[3 * face + 1]!, c = 3 * corners[3 * face + 2]!;
+    const ax = positions[a]!, ay = positions[a + 1]!, az = positions[a + 2]!;
+    const ux = positions[b]! - ax, uy = positions[b + 1]! - ay, uz = positions[b + 2]! - az;
+    const vx = positions[c]! - ax, vy = positions[c + 1]! - ay, vz = positions[c + 2]! - az;
+    const wx = vx - ux, wy = vy - uy, wz = vz - uz;
+    const ab = Math.sqrt(ux * ux + uy * uy + uz * uz);
+    const ac = Math.sqrt(vx * vx + vy * vy + vz * vz);
+    const bc = Math.sqrt(wx * wx + wy * wy + wz * wz);
+    const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    const twiceArea = Math.sqrt(nx * nx + ny * ny + nz * nz);
+    this.size = Math.max(ab, ac, bc);
+    // sqrt(12) * inradius / longest edge, the inradius being twice the area over the perimeter.
+    this.stretch = this.size > 0 ? (Math.sqrt(12) * twiceArea) / ((ab + bc + ac) * this.size) : 0;
+  }
+}
+
+/** Edges at each vertex that are seen, as the server counts them: at an open boundary one more than faces. */
+export function valences(surface: Surface): Uint16Array {
+  const { corners, faceCount, ghosts, vertexCount } = surface;
+  const count = new Uint16Array(vertexCount);
+  const open = new Uint8Array(vertexCount);
+  for (let f = 0; f < faceCount; ++f) {
+    const seen = isSeen(surface, f);
+    for (let c = 3 * f; c < 3 * f + 3; ++c) {
+      if (seen) ++count[corners[c]!]!;
+      else if (corners[c]! >= ghosts) open[corners[c]!] = 1;
+    }
+  }
+  for (let v = 0; v < vertexCount; ++v) count[v]! += open[v]!;
+  return count;
+}

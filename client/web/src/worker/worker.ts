@@ -1,0 +1,191 @@
+import { toJson } from "@bufbuild/protobuf";
+import { anyUnpack } from "@bufbuild/protobuf/wkt";
+import { ErrorInfoSchema } from "../gen/google/rpc/error_details_pb";
+import type { Status } from "../gen/google/rpc/status_pb";
+import { RecordEncoding, RepresentationSchema, type Representation } from "../gen/vsplit/v1/meshing_pb";
+import type { ColourBy } from "../shared/colours";
+import { fail, problemOf, Problem } from "../shared/problem";
+import type { News, Order, Point } from "../shared/protocol";
+import { measure } from "./figures";
+import { eventsOf } from "./frames";
+import { BaseParts, type HeldMesh } from "./held_mesh";
+import { Painter } from "./painter";
+import { readPly } from "./ply";
+import type { Surface } from "./surface";
+
+const eventStream = "application/x-vsplit";
+/** Positions to single precision are all that is drawn. */
+const encoding = RecordEncoding.FLOAT32;
+/** A look at all faces takes its time: not at every step of a slider. */
+const figuresAfter = 150;
+
+/** Why a stream ends that nobody wants any more; a stream that a user cancels ends otherwise. */
+const superseded = Symbol("superseded");
+
+const tell = (news: News, transfer: Transferable[] = []): void => self.postMessage(news, { transfer });
+
+let surface: Surface | undefined;
+let held: HeldMesh | undefined;
+let opened: { session: string; representation: string } | undefined;
+let painter = new Painter([0, 0, 0]);
+let by: ColourBy = "stretch";
+let running: AbortController | undefined;
+let timer: ReturnType<typeof setTimeout> | undefined;
+
+function draw(whole: boolean, begun: number, recordsBefore: number): void {
+  if (!surface) return;
+  const changes = held?.takeChanges();
+  const painted = whole || !changes ? painter.whole(surface) : painter.some(surface, changes);
+  const patch = {
+    ...painted,
+    slots: surface.faceCount,
+    visible: held ? held.visible : surface.faceCount,
+    milliseconds: performance.now() - begun,
+    records: held ? Math.abs(held.mesh.records - recordsBefore) : 0,
+  };
+  tell({ kind: "patch", patch }, [painted.runs.buffer, painted.positions.buffer, painted.colours.buffer]);
+  clearTimeout(timer);
+  timer = setTimeout(tellFigures, figuresAfter);
+}
+
+function tellFigures(): void {
+  if (!surface) return;
+  const figures = measure(surface);
+  if (by === "size" && figures.sizeMax !== painter.range[1]) {
+    painter.colourBy(by, figures.sizeMax);
+    draw(true, performance.now(), held?.mesh.records ?? 0);
+    clearTimeout(timer);
+  }
+  tell({ kind: "figures", figures, range: painter.range });
+}
+
+function problemIn(status: Status): Problem {
+  for (const detail of status.details) {
+    const info = anyUnpack(detail, ErrorInfoSchema);
+    if (info) return new Problem({ cause: info.reason, detail: status.message, field: info.metadata["field"] });
+  }
+  return fail(status.message);
+}
+
+function hold(mesh: HeldMesh): void {
+  held = mesh;
+  surface = mesh.mesh;
+}
+
+async function take(path: string, body: object, centre: Point, signal: AbortSignal): Promise<Representation> {
+  const response = await fetch(path, { method: "POST", headers: { "Content-Type": "application/json", Accept: eventStream }, body: JSON.stringify(body), signal });
+  if (!response.ok) throw await problemOf(response);
+  let base = new BaseParts();
+  for await (const { event } of eventsOf(response)) {
+    signal.throwIfAborted();
+    const begun = performance.now();
+    const before = held?.mesh.records ?? 0;
+    if (event.case === "progress") tell({ kind: "progress", stage: event.value.stage, fraction: event.value.fraction, faces: event.value.faces });
+    if (event.case === "baseMesh") {
+      const mesh = base.push(event.value);
+      if (!mesh) continue;
+      base = new BaseParts();
+      hold(mesh);
+      painter = new Painter(centre);
+      painter.colourBy(by, by === "size" ? measure(mesh.mesh).sizeMax : 0);
+      draw(true, begun, 0);
+    }
+    if (event.case === "recordBlock") {
+      held!.take(event.value);
+      draw(false, begun, before);
+    }
+    if (event.case === "error") throw problemIn(event.value);
+    if (event.case === "representation") return event.value;
+  }
+  throw fail("the stream ended without a representation");
+}
+
+async function stream(path: string, body: object, session: string, centre: Point): Promise<void> {
+  running?.abort(superseded);
+  const own = (running = new AbortController());
+  const before = { surface, held, painter };
+  try {
+    const made = await take(path, { ...body, encoding: RecordEncoding[encoding] }, centre, own.signal);
+    opened = { session, representation: made.id };
+    show(made.faces);
+    tell({ kind: "representation", json: toJson(RepresentationSchema, made) });
+  } catch (error) {
+    if (held !== before.held) goBack(before);
+    if (error !== superseded) throw error;
+  } finally {
+    if (running === own) running = undefined;
+  }
+}
+
+/** To the mesh before one that never was whole: what `opened` names goes with it. */
+function goBack(before: { surface: Surface | undefined; held: HeldMesh | undefined; painter: Painter }): void {
+  ({ surface, held, painter } = before);
+  if (surface) {
+    painter.colourBy(by, by === "size" ? measure(surface).sizeMax : 0);
+    return draw(true, performance.now(), held?.mesh.records ?? 0);
+  }
+  clearTimeout(timer);
+  tell({ kind: "patch", patch: { slots: 0, runs: new Uint32Array(), positions: new Float32Array(), colours: new Uint8Array(), visible: 0, milliseconds: 0, records: 0 } });
+}
+
+function show(faces: number): void {
+  const begun = performance.now();
+  const before = held!.mesh.records;
+  held!.show(faces);
+  draw(false, begun, before);
+}
+
+/** Up or down among the records that are here; what is finer is asked for. */
+async function goTo(faces: number, centre: Point): Promise<void> {
+  if (!held || !opened) return;
+  // Else what was asked for before would have the last word.
+  running?.abort(superseded);
+  show(faces);
+  if (faces <= held.visibleHeld) return;
+  const body = { representation: opened.representation, faces, resumeFrom: held.recordsHeld, facesHeld: held.recordsHeld === 0 ? held.visibleHeld : 0 };
+  await stream(`/v1/sessions/${opened.session}:setResolution`, body, opened.session, centre);
+}
+
+async function loadSource(path: string, centre: Point): Promise<void> {
+  const response = await fetch(path);
+  if (!response.ok) throw await problemOf(response);
+  const begun = performance.now();
+  surface = readPly(await response.arrayBuffer());
+  painter = new Painter(centre);
+  painter.colourBy(by, by === "size" ? measure(surface).sizeMax : 0);
+  draw(true, begun, 0);
+}
+
+let centre: Point = [0, 0, 0];
+
+async function obey(order: Order): Promise<void> {
+  if ("centre" in order) centre = order.centre;
+  switch (order.kind) {
+    case "source":
+      return loadSource(order.path, centre);
+    case "method":
+      return stream(order.path, order.body, order.path.split("/").at(-1)!.split(":")[0]!, centre);
+    case "open":
+      return stream(`/v1/sessions/${order.session}:setResolution`, { representation: order.representation, faces: order.faces }, order.session, centre);
+    case "faces":
+      return goTo(order.faces, centre);
+    case "colour":
+      by = order.by;
+      if (!surface) return;
+      painter.colourBy(by, by === "size" ? measure(surface).sizeMax : 0);
+      return draw(true, performance.now(), held?.mesh.records ?? 0);
+    case "cancel":
+      running?.abort();
+  }
+}
+
+self.onmessage = async ({ data }: MessageEvent<Order>) => {
+  try {
+    await obey(data);
+  } catch (error) {
+    const left = error instanceof DOMException && error.name === "AbortError";
+    if (left) tell({ kind: "problem", problem: { cause: "CANCELLED", detail: "cancelled" } });
+    else tell({ kind: "problem", problem: (error instanceof Problem ? error : fail(String(error))).text });
+  }
+  tell({ kind: "idle" });
+};

@@ -1,0 +1,78 @@
+// vsplitd and a browser that looks at its page, for tests and measurements. Node finds playwright-core among the page's packages.
+import { spawn } from "node:child_process";
+import { createRequire } from "node:module";
+
+const { chromium } = createRequire(new URL("../../../client/web/package.json", import.meta.url))("playwright-core");
+
+/** Starts vsplitd on free ports; `stop` ends it and fails where it does not end well. */
+export async function startServer(vsplitd, ...options) {
+  const child = spawn(vsplitd, ["--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--log-level", "error", ...options], { stdio: ["ignore", "pipe", "inherit"] });
+  const line = await new Promise((resolve, reject) => {
+    child.stdout.once("data", (data) => resolve(String(data)));
+    child.once("exit", (status) => reject(new Error(`vsplitd ended with ${status}`)));
+  });
+  const address = /and (http:\/\/\S+)/.exec(line)[1];
+  const stop = () =>
+    new Promise((resolve, reject) => {
+      child.removeAllListeners("exit");
+      child.once("exit", (status) => (status === 0 ? resolve() : reject(new Error(`vsplitd ended with ${status}`))));
+      child.kill("SIGTERM");
+    });
+  return { address, stop };
+}
+
+/** A page in Debian's Chromium, drawn by software. `said`: what its console and errors told. */
+export async function openPage(address, size = { width: 1440, height: 860 }) {
+  const args = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args });
+  const page = await browser.newPage({ viewport: size });
+  const said = [];
+  const asked = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && said.push(message.text()));
+  page.on("pageerror", (error) => said.push(error.message));
+  page.on("request", (request) => asked.push(request.url()));
+  await page.goto(address);
+  await page.waitForSelector("#improve button[type=submit]");
+  return { browser, page, said, asked };
+}
+
+/** What the page shows and names in its address. */
+export function shownOn(page) {
+  return page.evaluate(() => {
+    const canvas = document.getElementById("canvas").dataset;
+    return { ...Object.fromEntries(new URLSearchParams(location.hash.slice(1))), source: Number(canvas.source), result: Number(canvas.result) };
+  });
+}
+
+/** Waits until nothing runs and the address names what is shown. */
+export async function settled(page, timeout = 60000) {
+  await page.waitForFunction(
+    () => {
+      const faces = Number(document.getElementById("canvas").dataset.result);
+      const said = new URLSearchParams(location.hash.slice(1));
+      if (document.getElementById("stage").getAttribute("aria-busy") === "true") return false;
+      return faces > 0 && !document.querySelector("#work .progress") && said.has("representation") && Number(said.get("faces")) === faces && !document.getElementById("faces").disabled;
+    },
+    null,
+    { timeout },
+  );
+}
+
+export async function upload(page, file) {
+  await page.setInputFiles("#file", file);
+  await page.waitForFunction(() => document.getElementById("canvas").dataset.source || document.querySelector("#problems p"), null, { timeout: 60000 });
+}
+
+export async function run(page, verb, options) {
+  for (const [name, value] of Object.entries(options)) await page.fill(`#${verb}-${name}`, String(value));
+  await page.click(`#${verb} button[type=submit]`);
+}
+
+/** Moves the slider of resolutions to a share of its way. */
+export function slide(page, share) {
+  return page.evaluate((value) => {
+    const slider = document.getElementById("faces");
+    slider.value = String(1000 * value);
+    slider.dispatchEvent(new Event("input"));
+  }, share);
+}

@@ -1,0 +1,107 @@
+// haste_test.mjs VSPLITD DATA: whoever does the next thing before the last one is done gets what was asked for last, and no complaint.
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { openPage, run, settled, shownOn, slide, startServer, upload } from "./browser.mjs";
+import { startProxy } from "./stalling_proxy.mjs";
+
+const [vsplitd, data] = process.argv.slice(2);
+
+const asked = (page) => page.evaluate(() => document.getElementById("faces-shown").textContent);
+const complaints = (page) => page.locator("#problems p").allTextContents();
+
+/** All in one go: no step has an answer before the next one is there. */
+const drag = (page, shares) =>
+  page.evaluate((values) => {
+    const slider = document.getElementById("faces");
+    for (const value of values) {
+      slider.value = String(1000 * value);
+      slider.dispatchEvent(new Event("input"));
+    }
+  }, shares);
+
+/** Holds back the answers of a path until they are let go. */
+async function holdBack(page, pattern) {
+  const waiting = [];
+  let open = false;
+  await page.route(pattern, (route) => (open ? route.continue() : waiting.push(route)));
+  return {
+    count: () => waiting.length,
+    async letGo() {
+      open = true;
+      // Those that the page gave up have nothing to go on with.
+      for (const route of waiting) await route.continue().catch(() => undefined);
+      await page.unroute(pattern);
+    },
+  };
+}
+
+const steps = {
+  async "a slider dragged on while records come ends where it was let go"({ page, address }) {
+    await upload(page, join(data, "bracket.stl"));
+    await run(page, "improve", { subdivisionSize: 4, tolerance: 0.2, faces: 4000 });
+    await settled(page);
+    await drag(page, [0.8, 0.85, 0.9, 0.95, 1]);
+    await settled(page);
+    assert.deepEqual(await complaints(page), []);
+    const { session, representation, result } = await shownOn(page);
+    const { representations } = await (await fetch(`${address}/v1/sessions/${session}`)).json();
+    assert.equal(result, representations.find((one) => one.id === representation).facesMax);
+  },
+
+  async "down again while finer records are on their way stays down"({ page }) {
+    await slide(page, 0.3);
+    await settled(page);
+    const low = (await shownOn(page)).result;
+    await page.reload();
+    await settled(page);
+    const held = await holdBack(page, "**/*:setResolution");
+    await drag(page, [0.9]);
+    await page.waitForTimeout(500);
+    await drag(page, [0.3]);
+    await held.letGo();
+    await settled(page);
+    await page.waitForTimeout(500);
+    const { result } = await shownOn(page);
+    assert.ok(Math.abs(result - low) <= 2, `${result} faces are shown where ${low} were asked for; the slider says ${await asked(page)}`);
+    assert.deepEqual(await complaints(page), []);
+  },
+
+  async "a method cancelled while its mesh arrives leaves the one before, with its slider"({ page, address, proxy }) {
+    const before = await shownOn(page);
+    proxy.stall = true;
+    await run(page, "improve", { subdivisionSize: 4, tolerance: 0.2, faces: 30000 });
+    await page.waitForFunction((faces) => Number(document.getElementById("canvas").dataset.result) !== faces, before.result, { timeout: 60000 });
+    await page.click("#work .progress button");
+    proxy.stall = false;
+    await page.waitForSelector("#problems p");
+    assert.match((await complaints(page)).join(), /^CANCELLED/);
+    await page.click("#problems button");
+    await settled(page);
+    assert.deepEqual(await shownOn(page), before);
+    await slide(page, 0.6);
+    await settled(page);
+    const { session, representation, result } = await shownOn(page);
+    const quality = await (await fetch(`${address}/v1/sessions/${session}/quality?representation=${representation}&faces=${result}`)).json();
+    assert.equal(result, quality.faces);
+    assert.notEqual(result, before.result);
+    assert.deepEqual(await complaints(page), []);
+  },
+};
+
+const server = await startServer(vsplitd);
+const proxy = await startProxy(server.address);
+const opened = await openPage(proxy.address);
+try {
+  for (const [name, step] of Object.entries(steps)) {
+    const begun = performance.now();
+    await step({ ...opened, address: server.address, proxy });
+    console.log(`ok: ${name} (${Math.round(performance.now() - begun)} ms)`);
+  }
+} catch (error) {
+  console.error(`${error.stack}\nthe page said: ${opened.said.join("\n")}`);
+  process.exitCode = 1;
+} finally {
+  await opened.browser.close();
+  proxy.stop();
+  await server.stop();
+}

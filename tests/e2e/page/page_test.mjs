@@ -1,0 +1,213 @@
+// page_test.mjs VSPLITD VSPLIT DATA: the page as people use it, against what the server says of the same meshes.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { openPage, run, settled, shownOn, slide, startServer, upload } from "./browser.mjs";
+
+const [vsplitd, vsplit, data] = process.argv.slice(2);
+const place = mkdtempSync(join(tmpdir(), "vsplit-page-"));
+
+/** A square with a hole: two boundaries. */
+function openMesh() {
+  const cells = 24, lines = [];
+  const at = (i, j) => i * (cells + 1) + j;
+  const faces = [];
+  for (let i = 0; i <= cells; ++i) for (let j = 0; j <= cells; ++j) lines.push(`${i} ${j} ${Math.sin(i / 5)}`);
+  for (let i = 0; i < cells; ++i) {
+    for (let j = 0; j < cells; ++j) {
+      if (i > 8 && i < 14 && j > 8 && j < 14) continue;
+      faces.push(`3 ${at(i, j)} ${at(i + 1, j)} ${at(i + 1, j + 1)}`, `3 ${at(i, j)} ${at(i + 1, j + 1)} ${at(i, j + 1)}`);
+    }
+  }
+  const used = lines.map((_, n) => faces.some((face) => face.split(" ").slice(1).includes(String(n))));
+  const number = [];
+  used.forEach((is) => number.push(is ? number.filter((n) => n >= 0).length : -1));
+  const kept = lines.filter((_, n) => used[n]);
+  const renamed = faces.map((face) => `3 ${face.split(" ").slice(1).map((n) => number[n]).join(" ")}`);
+  const path = join(place, "open.off");
+  writeFileSync(path, `OFF\n${kept.length} ${renamed.length} 0\n${kept.join("\n")}\n${renamed.join("\n")}\n`);
+  return path;
+}
+
+async function qualityOf(address, { session, representation, result }) {
+  const answer = await fetch(`${address}/v1/sessions/${session}/quality?representation=${representation}&faces=${result}`);
+  return answer.json();
+}
+
+/** The faces that are drawn and the figures beside them are those of the server's mesh. */
+async function agrees(page, address) {
+  const shown = await shownOn(page);
+  const quality = await qualityOf(address, shown);
+  assert.equal(shown.result, quality.faces);
+  const english = new Intl.NumberFormat("en");
+  const expected = [english.format(quality.faces), quality.stretchMean.toFixed(3), (quality.stretchMin ?? 0).toFixed(3), english.format(quality.facesBelow02 ?? 0), String(quality.valenceMax)];
+  // Figures follow the mesh by a moment.
+  const cells = () => page.$$eval("#table tbody td:last-child", (all) => all.slice(0, 5).map((cell) => cell.textContent));
+  for (let wait = 0; wait < 50 && JSON.stringify(await cells()) !== JSON.stringify(expected); ++wait) await page.waitForTimeout(100);
+  assert.deepEqual(await cells(), expected);
+  return shown;
+}
+
+const steps = {
+  async "the page asks no other server and allows no other script"({ address, asked }) {
+    const answer = await fetch(address);
+    assert.match(answer.headers.get("content-security-policy"), /default-src 'none'; script-src 'self'/);
+    for (const url of asked) assert.ok(url.startsWith(address) || url.startsWith("data:"), url);
+  },
+
+  async "every control has a name"({ page }) {
+    const nameless = await page.evaluate(() =>
+      [...document.querySelectorAll("input, select, button, a.button")]
+        .filter((one) => !(one.labels?.length || one.getAttribute("aria-label") || one.textContent.trim()))
+        .map((one) => one.outerHTML));
+    assert.deepEqual(nameless, []);
+    assert.ok((await page.locator("#improve .field").count()) > 10);
+  },
+
+  async "what is no mesh is a problem with the server's cause and words"({ page }) {
+    await page.setInputFiles("#file", { name: "bad.stl", mimeType: "", buffer: Buffer.from("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n") });
+    await page.waitForSelector("#problems p");
+    assert.match(await page.textContent("#problems"), /^(MALFORMED_INPUT|TRUNCATED_INPUT|UNKNOWN_FORMAT) .*(line|byte)/);
+    assert.ok(await page.isDisabled("#improve button[type=submit]"));
+    await page.click("#problems button");
+  },
+
+  async "an upload is drawn, with its figures"({ page }) {
+    await upload(page, join(data, "bracket.stl"));
+    assert.equal((await shownOn(page)).source, 9084);
+    assert.match(await page.textContent("#summary"), /9,084 faces, 4,518 vertices; 1 piece, closed, genus 13/);
+    await page.waitForSelector("#worst li button");
+  },
+
+  async "an option out of range is pointed at"({ page }) {
+    await run(page, "improve", { minStretch: 2 });
+    await page.waitForSelector("#improve-minStretch[aria-invalid]");
+    assert.match(await page.textContent("#problems"), /^INVALID_OPTION .*accepted is 0 to 1/);
+    await page.fill("#improve-minStretch", "");
+  },
+
+  async "improve, and what is drawn is what the server made"({ page, address }) {
+    await run(page, "improve", { subdivisionSize: 4, tolerance: 0.2, faces: 12000 });
+    await settled(page);
+    assert.equal((await agrees(page, address)).result, 12000);
+    assert.equal(await page.locator("#problems p").count(), 0);
+  },
+
+  async "down and up, within what is held and beyond"({ page, address }) {
+    for (const share of [0.2, 0.05, 0, 0.4, 0.8, 1, 0.5]) {
+      await slide(page, share);
+            await settled(page);
+      await agrees(page, address);
+    }
+  },
+
+  async "a step of the slider sends faces, not the mesh"({ page }) {
+    const before = (await shownOn(page)).result;
+    await slide(page, 0.503);
+        await settled(page);
+    const after = (await shownOn(page)).result;
+    assert.notEqual(after, before);
+    const records = Number(/^(\d+) records/.exec(await page.getAttribute("#canvas", "data-step"))[1]);
+    const faces = Number(/, (\d+) faces/.exec(await page.getAttribute("#canvas", "data-step"))[1]);
+    assert.ok(records > 0 && faces < after / 3, `${records} records, ${faces} faces of ${after} drawn anew`);
+  },
+
+  async "colours, cut, views and places to look at"({ page }) {
+    for (const colour of ["size", "valence", "stretch"]) {
+      await page.selectOption("#colour", colour);
+      await page.waitForFunction((word) => document.getElementById("legend").textContent.includes(word), { size: "longest edge", valence: "edges at", stretch: "stretch" }[colour]);
+    }
+    await page.selectOption("#cut-axis", "1");
+    assert.ok(await page.isEnabled("#cut"));
+    await page.selectOption("#cut-axis", "");
+    const still = await page.locator("#canvas canvas").screenshot();
+    await page.click("#worst li:first-child button");
+    await page.waitForTimeout(300);
+    assert.notDeepEqual(await page.locator("#canvas canvas").screenshot(), still);
+    await page.focus("#canvas");
+    await page.keyboard.press("f");
+    await page.keyboard.press("ArrowLeft");
+  },
+
+  async "a download is the mesh that is shown"({ page, address }) {
+    const shown = await shownOn(page);
+    await page.selectOption("#format", "OBJ");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#download")]);
+    const path = join(place, download.suggestedFilename());
+    assert.match(path, /\.obj$/);
+    await download.saveAs(path);
+    const told = execFileSync(vsplit, ["info", path], { encoding: "utf8" });
+    assert.match(told.replace(/,/g, ""), new RegExp(`faces\\s+${shown.result}\\b`));
+    assert.ok(address);
+  },
+
+  async "control goes on from what is shown"({ page, address }) {
+    await run(page, "control", { subdivisions: 0, tolerance: 0.2, maxValence: 9 });
+    await page.waitForFunction(() => location.hash.includes("representation=r2"), null, { timeout: 60000 });
+    await settled(page);
+    await agrees(page, address);
+  },
+
+  async "the session is there again after a reload"({ page, address }) {
+    const before = await shownOn(page);
+    await page.reload();
+    await page.waitForFunction((faces) => Number(document.getElementById("canvas").dataset.result) === faces, before.result, { timeout: 30000 });
+    await settled(page);
+    assert.deepEqual(await agrees(page, address), before);
+  },
+
+  async "what is cancelled stops, and another method runs"({ page, address }) {
+    await run(page, "improve", { subdivisionSize: 0.9, tolerance: 0.2, faces: 300000 });
+    await page.click("#work .progress button");
+    await page.waitForSelector("#problems p");
+    assert.match(await page.textContent("#problems"), /^CANCELLED/);
+    await run(page, "improve", { subdivisionSize: 8, tolerance: 0.2, faces: 6000 });
+    await settled(page);
+    await agrees(page, address);
+  },
+
+  async "open boundaries: nothing that closes them is drawn"({ page, address }) {
+    await upload(page, openMesh());
+    await run(page, "improve", { subdivisionSize: 1.5, tolerance: 0.05, faces: 900 });
+    await settled(page);
+    const shown = await agrees(page, address);
+    for (const share of [0.1, 1, 0.6]) {
+      await slide(page, share);
+            await settled(page);
+      await agrees(page, address);
+    }
+    assert.equal(shown.source, 1102);
+  },
+
+  async "light and dark"({ page }) {
+    const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    const light = await ground();
+    await page.click("#theme");
+    assert.notEqual(await ground(), light);
+  },
+
+  async "nothing went wrong on the way"({ said }) {
+    // A browser says of every answer that is no 2xx that it failed to load.
+    assert.deepEqual(said.filter((text) => !text.startsWith("Failed to load resource") && !text.includes("GPU stall")), []);
+  },
+};
+
+const server = await startServer(vsplitd);
+const opened = await openPage(server.address);
+try {
+  for (const [name, step] of Object.entries(steps)) {
+    const begun = performance.now();
+    await step({ ...opened, address: server.address });
+    console.log(`ok: ${name} (${Math.round(performance.now() - begun)} ms)`);
+  }
+} catch (error) {
+  await opened.page.screenshot({ path: join(tmpdir(), "vsplit-page-failed.png") });
+  console.error(`${error.stack}\nthe page said: ${opened.said.join("\n")}\nand looked like ${join(tmpdir(), "vsplit-page-failed.png")}`);
+  process.exitCode = 1;
+} finally {
+  await opened.browser.close();
+  await server.stop();
+  rmSync(place, { recursive: true });
+}

@@ -1,0 +1,64 @@
+#include "wire/features.h"
+
+#include <algorithm>
+
+#include "wire/convert.h"
+
+namespace vsplit::wire {
+namespace {
+
+v1::ShapeFeature::Kind kind_of(ShapeFeature::Kind kind) {
+    switch (kind) {
+        case ShapeFeature::Kind::kThroughHole:
+            return v1::ShapeFeature::THROUGH_HOLE;
+        case ShapeFeature::Kind::kBlindHole:
+            return v1::ShapeFeature::BLIND_HOLE;
+        case ShapeFeature::Kind::kBoss:
+            return v1::ShapeFeature::BOSS;
+    }
+    return v1::ShapeFeature::KIND_UNSPECIFIED;
+}
+
+}  // namespace
+
+v1::ShapeFeature to_proto(const ShapeFeature& feature) {
+    v1::ShapeFeature proto;
+    proto.set_id(feature.id);
+    proto.set_kind(kind_of(feature.kind));
+    proto.set_diameter(feature.diameter);
+    proto.set_depth(feature.depth);
+    *proto.mutable_axis() = to_proto(feature.axis);
+    *proto.mutable_centre() = to_proto(feature.centre);
+    proto.set_face_count(static_cast<std::uint32_t>(feature.faces.size()));
+    const auto named = static_cast<std::ptrdiff_t>(std::min(feature.faces.size(), kMostFeatureFaces));
+    proto.mutable_faces()->Assign(feature.faces.begin(), feature.faces.begin() + named);
+    return proto;
+}
+
+v1::ListFeaturesResponse to_proto(const std::vector<ShapeFeature>& features) {
+    v1::ListFeaturesResponse proto;
+    for (const ShapeFeature& feature : features) *proto.add_features() = to_proto(feature);
+    return proto;
+}
+
+v1::RemoveFeaturesResponse to_proto(const FeaturelessMesh& made, const MeshReport& report) {
+    v1::RemoveFeaturesResponse proto;
+    *proto.mutable_source() = to_proto(report);
+    proto.mutable_removed()->Assign(made.removed.begin(), made.removed.end());
+    for (const KeptFeature& kept : made.kept) {
+        v1::KeptFeature& added = *proto.add_kept();
+        added.set_id(kept.id);
+        added.set_reason(kept.reason);
+    }
+    proto.set_first_new_face(made.first_new_face);
+    proto.set_size(made.size);
+    return proto;
+}
+
+FeatureRemoval from_proto(const v1::RemoveFeaturesRequest& request) {
+    FeatureRemoval removal{search_of(request), {request.ids().begin(), request.ids().end()}, {}};
+    if (request.has_max_diameter()) removal.max_diameter = request.max_diameter();
+    return removal;
+}
+
+}  // namespace vsplit::wire
