@@ -57,7 +57,7 @@ Stream receive(client::MeshingClient& client, const v1::SetResolutionRequest& re
     handlers.on_block = [&](const RecordBlock& block) -> Status {
         if (stream.payload == 0) stream.first_block = seconds_since(start);
         stream.payload += static_cast<double>(block.payload.size());
-        return {};
+        return Done{};
     };
     if (const auto done = client.set_resolution(request, handlers); !done) stop(done.error());
     stream.all = seconds_since(start);
@@ -78,7 +78,7 @@ double cost_of_stalled(const std::string& server, const std::string& pid, const 
             handlers.on_block = [&](const RecordBlock&) -> Status {
                 if (std::exchange(first, false)) begun.count_down();
                 over.wait();
-                return {};
+                return Done{};
             };
             if (const auto done = client->set_resolution(request, handlers); !done) stop(done.error());
         });
