@@ -1,5 +1,6 @@
 // How fast a server sends records to one client, how soon the first block comes, and what readers that stall cost it, on a
-// representation that it holds: rows of a table in Markdown. bench_stream HOST:PORT SESSION PID, PID the server's on this machine.
+// representation that it holds: rows of a table in Markdown. bench_stream HOST:PORT SESSION PID, PID the server's on this
+// machine.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -105,8 +106,10 @@ int main(int argc, char** argv) {
     coarsest.set_session(session);
     const auto made = client->set_resolution(coarsest);
     if (!made) stop(made.error());
-    std::printf("| Encoding | Faces | Payload, MB | First stream, MB/s | MB/s, median of %d | First block, ms: first, median, most |"
-                " MB of the server a stalled reader |\n|---|--:|--:|--:|--:|--:|--:|\n", kRounds);
+    std::printf(
+        "| Encoding | Faces | Payload, MB | First stream, MB/s | MB/s, median of %d | First block, ms: first, median, most |"
+        " MB of the server a stalled reader |\n|---|--:|--:|--:|--:|--:|--:|\n",
+        kRounds);
     for (const auto encoding : {v1::FLOAT64, v1::FLOAT32, v1::QUANTISED}) {
         const v1::SetResolutionRequest request = all_records(session, encoding, *made);
         const Stream first = receive(*client, request);
