@@ -1,0 +1,128 @@
+// How fast a server sends records to one client, how soon the first block comes, and what readers that stall cost it, on a
+// representation that it holds: rows of a table in Markdown. bench_stream HOST:PORT SESSION PID, PID the server's on this
+// machine.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <latch>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "vsplit/client/meshing_client.h"
+
+namespace {
+
+using namespace vsplit;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kRounds = 20;
+constexpr int kStalled = 6;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Bytes of memory that a process has in use; 0 where /proc does not say.
+double resident_bytes(const std::string& pid) {
+    std::ifstream file("/proc/" + pid + "/statm");
+    double size = 0, resident = 0;
+    file >> size >> resident;
+    return resident * 4096;
+}
+
+[[noreturn]] void stop(const Error& error) {
+    std::fprintf(stderr, "bench_stream: %s\n", error.message.c_str());
+    std::exit(1);
+}
+
+/// All records, to a client that holds the base mesh.
+v1::SetResolutionRequest all_records(const std::string& session, v1::RecordEncoding encoding, const v1::Representation& made) {
+    v1::SetResolutionRequest request;
+    request.set_session(session);
+    request.set_faces_held(made.faces_min());
+    request.set_faces(made.faces_max());
+    request.set_encoding(encoding);
+    return request;
+}
+
+struct Stream {
+    double payload = 0, first_block = 0, all = 0;  ///< bytes, seconds, seconds
+};
+
+Stream receive(client::MeshingClient& client, const v1::SetResolutionRequest& request) {
+    Stream stream;
+    const Clock::time_point start = Clock::now();
+    client::EventHandlers handlers;
+    handlers.on_block = [&](const RecordBlock& block) -> Status {
+        if (stream.payload == 0) stream.first_block = seconds_since(start);
+        stream.payload += static_cast<double>(block.payload.size());
+        return Done{};
+    };
+    if (const auto done = client.set_resolution(request, handlers); !done) stop(done.error());
+    stream.all = seconds_since(start);
+    return stream;
+}
+
+/// Bytes of the server's memory for each of several readers that take one block and then none.
+double cost_of_stalled(const std::string& server, const std::string& pid, const v1::SetResolutionRequest& request) {
+    const double before = resident_bytes(pid);
+    std::latch begun(kStalled), over(1);
+    std::vector<std::thread> readers;
+    for (int i = 0; i < kStalled; ++i) {
+        readers.emplace_back([&] {
+            auto client = client::MeshingClient::connect(server);
+            if (!client) stop(client.error());
+            bool first = true;
+            client::EventHandlers handlers;
+            handlers.on_block = [&](const RecordBlock&) -> Status {
+                if (std::exchange(first, false)) begun.count_down();
+                over.wait();
+                return Done{};
+            };
+            if (const auto done = client->set_resolution(request, handlers); !done) stop(done.error());
+        });
+    }
+    begun.wait();
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    const double after = resident_bytes(pid);
+    over.count_down();
+    for (std::thread& reader : readers) reader.join();
+    return (after - before) / kStalled;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 4) {
+        std::fprintf(stderr, "usage: bench_stream HOST:PORT SESSION PID\n");
+        return 2;
+    }
+    const std::string server = argv[1], session = argv[2], pid = argv[3];
+    auto client = client::MeshingClient::connect(server);
+    if (!client) stop(client.error());
+    v1::SetResolutionRequest coarsest;
+    coarsest.set_session(session);
+    const auto made = client->set_resolution(coarsest);
+    if (!made) stop(made.error());
+    std::printf(
+        "| Encoding | Faces | Payload, MB | First stream, MB/s | MB/s, median of %d | First block, ms: first, median, most |"
+        " MB of the server a stalled reader |\n|---|--:|--:|--:|--:|--:|--:|\n",
+        kRounds);
+    for (const auto encoding : {v1::FLOAT64, v1::FLOAT32, v1::QUANTISED}) {
+        const v1::SetResolutionRequest request = all_records(session, encoding, *made);
+        const Stream first = receive(*client, request);
+        std::vector<double> rates, waits;
+        for (int round = 0; round < kRounds; ++round) {
+            const Stream again = receive(*client, request);
+            rates.push_back(again.payload / again.all / 1e6);
+            waits.push_back(again.first_block * 1e3);
+        }
+        std::sort(rates.begin(), rates.end());
+        std::sort(waits.begin(), waits.end());
+        std::printf("| %s | %u | %.1f | %.0f | %.0f | %.1f, %.1f, %.1f | %.2f |\n", v1::RecordEncoding_Name(encoding).c_str(),
+                    made->faces_max(), first.payload / 1e6, first.payload / first.all / 1e6, rates[kRounds / 2],
+                    first.first_block * 1e3, waits[kRounds / 2], waits.back(), cost_of_stalled(server, pid, request) / 1e6);
+    }
+}
