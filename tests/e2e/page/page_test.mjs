@@ -188,6 +188,32 @@ const steps = {
     assert.notEqual(await ground(), light);
   },
 
+  async "a server that wants a token is given one"({ page }) {
+    const made = execFileSync(vsplitd, ["--new-token", "ann:read-write"], { encoding: "utf8" }).trim().split("\n");
+    const line = made.find((text) => /^ann\s+read-write\s+[0-9a-f]{64}$/.test(text));
+    const token = made.map((text) => text.split(/\s+/).at(-1)).find((word) => !line.includes(word));
+    const file = join(place, "tokens");
+    writeFileSync(file, `${line}\n`, { mode: 0o600 });
+    const guarded = await startServer(vsplitd, "--token-file", file);
+    try {
+      await page.goto(guarded.address);
+      await page.waitForSelector("#improve button[type=submit]");
+      await page.setInputFiles("#file", join(data, "bracket.stl"));
+      await page.waitForSelector("#access:not([hidden])");
+      assert.match(await page.textContent("#problems"), /^UNAUTHENTICATED/);
+      await page.fill("#token", token);
+      await page.press("#token", "Enter");
+      await upload(page, join(data, "bracket.stl"));
+      await run(page, "improve", { subdivisionSize: 8, tolerance: 0.2, faces: 6000 });
+      await settled(page);
+      await page.selectOption("#format", "OFF");
+      const [download] = await Promise.all([page.waitForEvent("download"), page.click("#download")]);
+      assert.match(download.suggestedFilename(), /\.off$/);
+    } finally {
+      await guarded.stop();
+    }
+  },
+
   async "nothing went wrong on the way"({ said }) {
     // A browser says of every answer that is no 2xx that it failed to load.
     assert.deepEqual(said.filter((text) => !text.startsWith("Failed to load resource") && !text.includes("GPU stall")), []);

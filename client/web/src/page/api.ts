@@ -1,5 +1,6 @@
 import { fromJson, type DescMessage, type JsonValue, type MessageShape } from "@bufbuild/protobuf";
 import { QualitySchema, SessionSchema, type Quality, type Session } from "../gen/vsplit/v1/meshing_pb";
+import { fields } from "../shared/access";
 import { problemFrom, problemOf, fail } from "../shared/problem";
 
 export interface UploadOptions {
@@ -12,7 +13,7 @@ function read<Schema extends DescMessage>(schema: Schema, json: JsonValue): Mess
 }
 
 async function get<Schema extends DescMessage>(schema: Schema, path: string): Promise<MessageShape<Schema>> {
-  const response = await fetch(path);
+  const response = await fetch(path, { headers: fields() });
   if (!response.ok) throw await problemOf(response);
   return read(schema, (await response.json()) as JsonValue);
 }
@@ -23,7 +24,7 @@ export function upload(file: Blob, options: UploadOptions, sent: (share: number)
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
     request.open("POST", `/v1/sessions?${query}`);
-    request.setRequestHeader("Content-Type", "application/octet-stream");
+    for (const [name, value] of Object.entries(fields({ "Content-Type": "application/octet-stream" }))) request.setRequestHeader(name, value);
     request.upload.onprogress = (event) => sent(event.total > 0 ? event.loaded / event.total : 0);
     request.onload = () => {
       if (request.status === 200) resolve(read(SessionSchema, JSON.parse(request.responseText) as JsonValue));

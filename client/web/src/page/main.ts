@@ -1,11 +1,13 @@
 import type { ColourBy } from "../shared/colours";
 import { upload } from "./api";
 import { element, find } from "./dom";
+import { fetchFile, needsFetching } from "./download";
 import { MethodForm } from "./form";
 import { hideProblem, problemText, showProblem } from "./problems";
 import { ProgressBar } from "./progress";
 import { formatsOf, methodOptions, type Contract } from "./schema";
 import { startTheme } from "./theme";
+import { startToken } from "./token";
 import { Viewer, type View } from "./viewer";
 import { Workbench } from "./workbench";
 
@@ -113,11 +115,25 @@ async function startForms(): Promise<void> {
   for (const name of formatsOf(contract)) format.append(element("option", { value: name }, name.toLowerCase().replace(/_/g, " ")));
   format.addEventListener("change", updateDownload);
   for (const form of forms) form.enabled = bench.ready;
+  find("download").addEventListener("click", (event) => {
+    const path = bench.file(format.value);
+    if (!path || !needsFetching()) return;
+    event.preventDefault();
+    fetchFile(path).catch((error: unknown) => showProblem(problemText(error)));
+  });
 }
 
+function reopen(): void {
+  bench.reopen().catch((error: unknown) => showProblem(problemText(error)));
+}
+
+startToken(() => {
+  hideProblem();
+  reopen();
+});
 startTheme((background) => viewer.background(background));
 startUpload();
 startTools();
 startForms()
-  .then(() => bench.reopen())
+  .then(reopen)
   .catch((error: unknown) => showProblem(problemText(error)));

@@ -1,3 +1,4 @@
+import { access } from "../shared/access";
 import type { News, Order } from "../shared/protocol";
 
 /** A worker that holds one of the two meshes. */
@@ -12,6 +13,7 @@ export class MeshWorker {
       if (data.kind === "idle") --this.orders;
       heard(data);
     };
+    this.tell({ kind: "token", token: access.token });
     this.worker.onerror = (event) => heard({ kind: "problem", problem: { cause: "INTERNAL", detail: event.message || "the worker could not be started" } });
   }
 

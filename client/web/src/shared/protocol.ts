@@ -51,6 +51,7 @@ export type Order =
   | { kind: "open"; session: string; representation: string; faces: number; centre: Point }
   | { kind: "faces"; faces: number }
   | { kind: "colour"; by: ColourBy }
+  | { kind: "token"; token: string }
   | { kind: "cancel" };
 
 /** A worker to the page. */

@@ -3,6 +3,7 @@ import { anyUnpack } from "@bufbuild/protobuf/wkt";
 import { ErrorInfoSchema } from "../gen/google/rpc/error_details_pb";
 import type { Status } from "../gen/google/rpc/status_pb";
 import { RecordEncoding, RepresentationSchema, type Representation } from "../gen/vsplit/v1/meshing_pb";
+import { access, fields } from "../shared/access";
 import type { ColourBy } from "../shared/colours";
 import { fail, problemOf, Problem } from "../shared/problem";
 import type { News, Order, Point } from "../shared/protocol";
@@ -73,7 +74,7 @@ function hold(mesh: HeldMesh): void {
 }
 
 async function take(path: string, body: object, centre: Point, signal: AbortSignal): Promise<Representation> {
-  const response = await fetch(path, { method: "POST", headers: { "Content-Type": "application/json", Accept: eventStream }, body: JSON.stringify(body), signal });
+  const response = await fetch(path, { method: "POST", headers: fields({ "Content-Type": "application/json", Accept: eventStream }), body: JSON.stringify(body), signal });
   if (!response.ok) throw await problemOf(response);
   let base = new BaseParts();
   for await (const { event } of eventsOf(response)) {
@@ -147,7 +148,7 @@ async function goTo(faces: number, centre: Point): Promise<void> {
 }
 
 async function loadSource(path: string, centre: Point): Promise<void> {
-  const response = await fetch(path);
+  const response = await fetch(path, { headers: fields() });
   if (!response.ok) throw await problemOf(response);
   const begun = performance.now();
   surface = readPly(await response.arrayBuffer());
@@ -174,6 +175,9 @@ async function obey(order: Order): Promise<void> {
       if (!surface) return;
       painter.colourBy(by, by === "size" ? measure(surface).sizeMax : 0);
       return draw(true, performance.now(), held?.mesh.records ?? 0);
+    case "token":
+      access.token = order.token;
+      return;
     case "cancel":
       running?.abort();
   }
