@@ -13,7 +13,7 @@ namespace vsplit::rest {
 /// A client's connection, plain or in TLS, with the deadlines of Beast's tcp_stream. For one strand.
 class Stream {
 public:
-    using executor_type = beast::tcp_stream::executor_type;
+    using executor_type = beast::tcp_stream::executor_type;  // NOLINT(readability-identifier-naming): Beast asks for this name
 
     /// `tls` is null for a plain one.
     Stream(net::ip::tcp::socket socket, std::shared_ptr<net::ssl::context> tls)

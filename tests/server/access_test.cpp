@@ -187,8 +187,8 @@ TEST_F(AccessTest, NoRpcThatWritesTakesAReadOnlyToken) {
             }
         }
     }
-    EXPECT_EQ(writing, 2U * 5U)
-        << "CreateSession, UploadMesh, DeleteSession, Improve, Control; is a new rpc marked as it should be?";
+    EXPECT_EQ(writing, 2U * 6U)
+        << "CreateSession, UploadMesh, DeleteSession, Improve, Control, RemoveFeatures; is a new rpc marked as it should be?";
     expect_whole();
 }
 

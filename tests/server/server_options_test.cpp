@@ -26,7 +26,7 @@ protected:
     void write(const std::string& text) const { std::ofstream(file_) << text; }
 
     // The options, or the status to exit with.
-    std::variant<ServerOptions, int> parse(std::vector<std::string> arguments, const Variables& variables = {}) {
+    std::variant<ServerOptions, int> parse(const std::vector<std::string>& arguments, const Variables& variables = {}) {
         std::vector<const char*> argv{"vsplitd"};
         for (const std::string& argument : arguments) argv.push_back(argument.c_str());
         ::testing::internal::CaptureStdout();
