@@ -64,7 +64,8 @@ private:
     /// The square around a ring: a fan from each corner.
     void around(const Corners& outer, const Ring& inner, bool turned) {
         const std::size_t n = inner.size();
-        for (std::size_t k = 0; k < n; ++k) face(inner[k], outer[k / (n / 4)], inner[(k + 1) % n], turned);
+        if (n == 0) return;
+        for (std::size_t k = 0; k < n; ++k) face(inner[k], outer[4 * k / n], inner[(k + 1) % n], turned);
         for (std::size_t q = 0; q < 4; ++q) face(outer[q], outer[(q + 1) % 4], inner[(q + 1) * n / 4 % n], turned);
     }
 

@@ -38,10 +38,11 @@ TEST(TokenFileTest, ReadsWhatItWrites) {
 
 TEST(TokenFileTest, SaysWhichLineIsWrongAndNeverWhatIsInIt) {
     const std::string secret = "vst_0123456789abcdef";
+    const std::string ann = "ann read-write ";
+    const std::string secret_first = secret + " " + kAbc, secret_last = kAbc + " " + secret;
     for (const std::string& line :
-         {secret, "ann read-write " + secret, "ann " + secret + " " + kAbc, "ann read-write " + kAbc.substr(1),
-          "ann read-write " + kAbc + " " + secret, "an/n read-write " + kAbc, "ann write " + kAbc,
-          std::string(65, 'n') + " read-only " + kAbc}) {
+         {secret, ann + secret, "ann " + secret_first, ann + kAbc.substr(1), ann + secret_last, "an/n read-write " + kAbc,
+          "ann write " + kAbc, std::string(65, 'n') + " read-only " + kAbc}) {
         const std::string message = refusal("\nok read-only " + std::string(64, '0') + "\n" + line + "\n");
         EXPECT_NE(message.find("tokens, line 3: "), std::string::npos) << line << ": " << message;
         EXPECT_EQ(message.find(secret), std::string::npos) << message;

@@ -44,7 +44,7 @@ std::string write_vtu(const Elements& elements) {
     text += "      <Points>\n" + arrays.add("Float64", "Points", "3", 24 * points, [&](NumberWriter& out) {
         for (std::size_t node = 0; node < points; ++node) out.put(elements.position(node));
     }) + "      </Points>\n      <Cells>\n";
-    text += arrays.add("UInt32", "connectivity", "1", 4 * nodes * faces, [&](NumberWriter& out) {
+    text += arrays.add("UInt32", "connectivity", "1", std::size_t{4} * nodes * faces, [&](NumberWriter& out) {
         for (std::uint64_t f = 0; f < faces; ++f) {
             for (std::uint32_t i = 0; i < nodes; ++i) out.put(elements.node(f, i));
         }
