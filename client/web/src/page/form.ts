@@ -30,9 +30,9 @@ export class MethodForm {
 
   /** Points at the field that the server says is at fault. */
   blame(name: string | undefined): void {
-    const last = name?.split(".").at(-1)?.replace(/_([a-z])/g, (_, letter: string) => letter.toUpperCase());
+    const path = name?.replace(/^options\./, "").replace(/_([a-z])/g, (_, letter: string) => letter.toUpperCase());
     for (const { option, field } of this.fields) {
-      const guilty = option.path.at(-1) === last;
+      const guilty = option.path.join(".") === path;
       field.toggleAttribute("aria-invalid", guilty);
       if (guilty) {
         field.closest("details")?.setAttribute("open", "");

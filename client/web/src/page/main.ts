@@ -1,4 +1,5 @@
 import type { ColourBy } from "../shared/colours";
+import { problemOf } from "../shared/problem";
 import { upload } from "./api";
 import { element, find } from "./dom";
 import { fetchFile, needsFetching } from "./download";
@@ -100,6 +101,7 @@ function startTools(): void {
 
 async function startForms(): Promise<void> {
   const response = await fetch("openapi.json");
+  if (!response.ok) throw await problemOf(response);
   const contract = (await response.json()) as Contract;
   for (const verb of ["improve", "control"] as const) {
     const title = verb === "improve" ? "Improve" : "Control";
