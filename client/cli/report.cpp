@@ -120,6 +120,7 @@ double seconds(const google::protobuf::Duration& d) { return static_cast<double>
 template <class Options>
 std::string common_options(const Options& o) {
     std::string text = line("tolerance", figure(o.tolerance()));
+    if (o.has_max_deviation()) text += line("max deviation", figure(o.max_deviation()));
     text += line("feature angle", figure(o.feature_angle()) + " degrees");
     text += line("feature weight", figure(o.feature_weight()));
     return text;

@@ -35,9 +35,10 @@ function sliverNote(slivers: Slivers): HTMLElement {
   return element("div", { class: "note" }, element("strong", {}, slivers.cause.toLowerCase().replace(/_/g, " ")), element("p", {}, slivers.message));
 }
 
-/** Bounds that a result breaks, and why slivers are left in it. */
-export function resultNotes(made: Representation): HTMLElement[] {
+/** Bounds that a result breaks at the resolution it was asked for, and why slivers are left in it there. */
+export function resultNotes(made: Representation, faces: number): HTMLElement[] {
   const broken = made.violations.map((v) =>
     element("div", { class: "note bad" }, element("strong", {}, `${v.bound} not met`), element("p", {}, `asked ${figure(v.limit)}, worst ${figure(v.worst)}, ${count(v.count)} elements. ${v.reason}`)));
-  return [...broken, ...made.slivers.map(sliverNote)];
+  const notes = [...broken, ...made.slivers.map(sliverNote)];
+  return notes.length > 0 ? [element("p", { class: "hint" }, `The result, at ${count(faces)} faces:`), ...notes] : [];
 }

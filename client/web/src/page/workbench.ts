@@ -27,6 +27,8 @@ export class Workbench {
   private name = "";
   private made: Representation | undefined;
   private faces = 0;
+  /** The resolution that the method was asked for: what it said is of that. */
+  private at = 0;
   private centre: Point = [0, 0, 0];
   private diagonal = 1;
   private readonly figures: Partial<Record<Slot, Figures>> = {};
@@ -53,6 +55,7 @@ export class Workbench {
     const made = session.representations.find((one) => one.id === place.representation) ?? session.representations.at(-1);
     if (!made) return;
     this.made = made;
+    this.at = made.faces;
     writePlace({ session: session.id, representation: made.id, faces: place.faces ?? made.faces, name: this.name });
     this.showNotes();
     this.order({ kind: "open", session: session.id, representation: made.id, faces: place.faces ?? made.faces, centre: this.centre });
@@ -163,6 +166,7 @@ export class Workbench {
   private take(made: Representation): void {
     const another = made.id !== this.made?.id;
     // Other resolutions come without what was measured at the one asked for.
+    if (another) this.at = made.faces;
     this.made = another ? made : Object.assign(this.made!, { facesMin: made.facesMin, facesMax: made.facesMax });
     this.slider.set(made.facesMin, made.facesMax, made.faces);
     this.showNotes();
@@ -205,14 +209,14 @@ export class Workbench {
   }
 
   private showQuality(): void {
-    const columns = { ...this.figures, deviation: this.made?.faces === this.faces ? this.made.quality?.deviationMax : undefined };
+    const columns = { ...this.figures, deviation: this.made && this.at === this.faces ? this.made.quality?.deviationMax : undefined };
     find("table").replaceChildren(qualityTable(columns), spreadTable(columns));
     find("histogram").replaceChildren(stretchHistogram(columns));
   }
 
   private showNotes(): void {
     const findings = findingList(this.session?.source?.findings ?? [], this.diagonal / 100, (place, size) => this.fly("source", place, size));
-    const notes = [...(this.made ? resultNotes(this.made) : []), ...findings];
+    const notes = [...(this.made ? resultNotes(this.made, this.at) : []), ...findings];
     find("notes").replaceChildren(...(notes.length > 0 ? notes : ["Nothing to report."]));
   }
 
