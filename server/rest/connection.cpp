@@ -42,6 +42,13 @@ std::optional<Problem> check_header(const http::request<http::buffer_body>& requ
         return http_problem(501, Cause::kUnsupported,
                             "no such method is known; accepted are DELETE, GET, HEAD, OPTIONS, POST and PUT");
     }
+    // Where two readers of a message disagree about its end, one takes what follows for another request.
+    const auto coding = request[http::field::transfer_encoding];
+    const bool coded = request.count(http::field::transfer_encoding) > 0;
+    if (coded && (request.count(http::field::transfer_encoding) > 1 || !beast::iequals(coding, "chunked"))) {
+        return http_problem(501, Cause::kUnsupported, "the transfer coding is not understood; accepted is chunked alone",
+                            "Transfer-Encoding");
+    }
     const auto expect = request[http::field::expect];
     if (!expect.empty() && !beast::iequals(expect, "100-continue")) {
         return http_problem(417, Cause::kUnsupported, "Expect is not understood; accepted is 100-continue", "Expect");
@@ -162,14 +169,17 @@ Awaitable<bool> Connection::serve_one(bool last) {
 
 Awaitable<void> Connection::answer(Exchange& exchange) {
     std::optional<Problem> problem = check_header(exchange.request());
-    if (!problem) {
-        try {
-            co_await gateway_.serve(exchange);
-        } catch (const std::bad_alloc&) {
-            problem = problem_of(Error{Cause::kLimitExceeded, "the server has not enough memory for this request", "", 1});
-        } catch (const std::exception& thrown) {
-            problem = problem_of(Error{Cause::kInternal, std::string("unexpected failure: ") + thrown.what(), ""});
-        }
+    if (problem) {  // where such a request ends is not sure, so nothing after it is read as another
+        exchange.response().close_after();
+        co_await exchange.fail(*problem);
+        co_return co_await linger();
+    }
+    try {
+        co_await gateway_.serve(exchange);
+    } catch (const std::bad_alloc&) {
+        problem = problem_of(Error{Cause::kLimitExceeded, "the server has not enough memory for this request", "", 1});
+    } catch (const std::exception& thrown) {
+        problem = problem_of(Error{Cause::kInternal, std::string("unexpected failure: ") + thrown.what(), ""});
     }
     if (problem) co_await exchange.fail(*problem);
 }

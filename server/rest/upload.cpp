@@ -139,8 +139,9 @@ Awaitable<void> serve_upload(Exchange& exchange, const Route& route, const Targe
 bool takes_mesh_body(const pb::MethodDescriptor& rpc) { return rpc.full_name() == kCreate; }
 
 bool creates_with_mesh(Exchange& exchange, const Route& route) {
-    const bool json = same_token(media_type(exchange.header(http::field::content_type)), kJsonType);
-    return takes_mesh_body(*route.rpc) && !json && exchange.body().declared_size() != 0U;
+    const std::string_view type = exchange.header(http::field::content_type);
+    if (!takes_mesh_body(*route.rpc) || same_token(media_type(type), kJsonType)) return false;
+    return !type.empty() || exchange.body().declared_size() != 0U;  // a file may be empty by mistake
 }
 
 Awaitable<void> serve_create_with_mesh(Exchange& exchange, const Route& route, const Target& target, Tools tools) {

@@ -86,6 +86,24 @@ TEST_F(RestTest, UploadsWithALengthAndInChunks) {
     EXPECT_EQ(client.ask("GET", "/healthz").status, 200U) << "the connection goes on";
 }
 
+TEST_F(RestTest, AFileWithoutBytesIsNoMesh) {
+    EXPECT_TRUE(is_problem(ask("POST", "/v1/sessions", {{"Content-Type", "application/octet-stream"}}), 400, "EMPTY_INPUT"));
+    EXPECT_EQ(server_.grpc().service().load().sessions, 0U);
+}
+
+// Else what follows could be a request of its own for one reader and a body for another.
+TEST_F(RestTest, OnlyChunkedIsATransferCoding) {
+    for (const std::string coding : {"gzip", "chunked, gzip", "gzip, chunked", "identity", "xchunked"}) {
+        HttpClient client(server_.port());
+        client.send("POST /v1/sessions HTTP/1.1\r\nHost: t\r\nTransfer-Encoding: " + coding +
+                    "\r\n\r\nGET /healthz HTTP/1.1\r\nHost: t\r\n\r\n");
+        const HttpReply reply = client.read_reply();
+        EXPECT_TRUE(reply.status == 400 || reply.status == 501) << coding << ": " << reply.status;
+        EXPECT_EQ(client.read_line(), "") << coding << ": a second answer";
+    }
+    EXPECT_EQ(server_.grpc().service().load().sessions, 0U);
+}
+
 TEST_F(RestTest, AnUploadThatIsCutOffChangesNothing) {
     const std::string id = session_of(cube());
     HttpClient client(server_.port());

@@ -11,7 +11,7 @@ export function readPlace(): Place {
   return {
     session: said.get("session") ?? undefined,
     representation: said.get("representation") ?? undefined,
-    faces: Number(said.get("faces")) || undefined,
+    faces: /^[1-9]\d{0,9}$/.test(said.get("faces") ?? "") ? Number(said.get("faces")) : undefined,
     name: said.get("name") ?? undefined,
   };
 }

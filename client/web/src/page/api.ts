@@ -1,7 +1,7 @@
 import { fromJson, type DescMessage, type JsonValue, type MessageShape } from "@bufbuild/protobuf";
 import { QualitySchema, SessionSchema, type Quality, type Session } from "../gen/vsplit/v1/meshing_pb";
 import { fields } from "../shared/access";
-import { problemFrom, problemOf, fail } from "../shared/problem";
+import { problemFrom, problemOf, unreachable } from "../shared/problem";
 
 export interface UploadOptions {
   repair: string;
@@ -30,7 +30,7 @@ export function upload(file: Blob, options: UploadOptions, sent: (share: number)
       if (request.status === 200) resolve(read(SessionSchema, JSON.parse(request.responseText) as JsonValue));
       else reject(problemFrom(request.status, request.responseText));
     };
-    request.onerror = () => reject(fail("the server cannot be reached"));
+    request.onerror = () => reject(unreachable);
     request.onabort = () => reject(new DOMException("cancelled", "AbortError"));
     signal.addEventListener("abort", () => request.abort());
     request.send(file);

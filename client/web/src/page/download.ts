@@ -1,10 +1,10 @@
-import { access, fields } from "../shared/access";
+import { fields } from "../shared/access";
 import { problemOf } from "../shared/problem";
 import { element } from "./dom";
 
 const nameIn = /filename="([^"]*)"/;
 
-/** A link cannot carry a token: then the file is fetched and handed over. */
+/** A link can carry no token, and would leave the page where the server refuses: the file is fetched and handed over. */
 export async function fetchFile(path: string): Promise<void> {
   const response = await fetch(path, { headers: fields() });
   if (!response.ok) throw await problemOf(response);
@@ -12,5 +12,3 @@ export async function fetchFile(path: string): Promise<void> {
   element("a", { href: url, download: nameIn.exec(response.headers.get("content-disposition") ?? "")?.[1] ?? "mesh" }).click();
   setTimeout(() => URL.revokeObjectURL(url), 60_000);
 }
-
-export const needsFetching = (): boolean => access.token !== "";

@@ -33,7 +33,8 @@ export class MethodForm {
     const path = name?.replace(/^options\./, "").replace(/_([a-z])/g, (_, letter: string) => letter.toUpperCase());
     for (const { option, field } of this.fields) {
       const guilty = option.path.join(".") === path;
-      field.toggleAttribute("aria-invalid", guilty);
+      if (guilty) field.setAttribute("aria-invalid", "true");
+      else field.removeAttribute("aria-invalid");
       if (guilty) {
         field.closest("details")?.setAttribute("open", "");
         field.focus();

@@ -1,10 +1,10 @@
 import type { ColourBy } from "../shared/colours";
-import { problemOf } from "../shared/problem";
+import { Problem, problemOf, problemText } from "../shared/problem";
 import { upload } from "./api";
 import { element, find } from "./dom";
-import { fetchFile, needsFetching } from "./download";
+import { fetchFile } from "./download";
 import { MethodForm } from "./form";
-import { hideProblem, problemText, showProblem } from "./problems";
+import { hideProblem, showProblem } from "./problems";
 import { ProgressBar } from "./progress";
 import { formatsOf, methodOptions, type Contract } from "./schema";
 import { startTheme } from "./theme";
@@ -30,20 +30,32 @@ function updateDownload(): void {
   if (path) link.href = path;
 }
 
+let sending: AbortController | undefined;
+
+/** Uploads a mesh; one that is still on its way gives way to it. */
 async function send(file: Blob, name: string): Promise<void> {
   hideProblem();
-  const stop = new AbortController();
+  sending?.abort();
+  const stop = (sending = new AbortController());
+  for (const form of forms) form.enabled = false;
   const progress = new ProgressBar(find("upload"), () => stop.abort());
   progress.show("upload", 0);
   try {
     const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(find<HTMLInputElement>("weld").value) || 0 };
     const session = await upload(file, options, (share) => progress.show(share < 1 ? "upload" : "inspect", share), stop.signal);
-    bench.open(session, name);
+    if (sending === stop) bench.open(session, name);
   } catch (error) {
-    showProblem(problemText(error));
+    if (sending === stop) showProblem(problemText(error));
   } finally {
     progress.hide();
+    if (sending === stop) for (const form of forms) form.enabled = bench.ready;
   }
+}
+
+async function fetchSample(name: string): Promise<void> {
+  const response = await fetch(`samples/${name}`);
+  if (!response.ok) throw new Problem({ cause: "NOT_FOUND", detail: `the server has no sample ${name}` });
+  await send(await response.blob(), name);
 }
 
 function startUpload(): void {
@@ -71,10 +83,8 @@ function startUpload(): void {
   });
   for (const name of samples) {
     const button = element("button", { type: "button", class: "quiet" }, name);
-    button.addEventListener("click", async () => {
-      const response = await fetch(`samples/${name}`);
-      if (response.ok) await send(await response.blob(), name);
-      else showProblem({ cause: "NOT_FOUND", detail: `the server has no sample ${name}` });
+    button.addEventListener("click", () => {
+      fetchSample(name).catch((error: unknown) => showProblem(problemText(error)));
     });
     find("samples").append(button);
   }
@@ -119,9 +129,8 @@ async function startForms(): Promise<void> {
   for (const form of forms) form.enabled = bench.ready;
   find("download").addEventListener("click", (event) => {
     const path = bench.file(format.value);
-    if (!path || !needsFetching()) return;
     event.preventDefault();
-    fetchFile(path).catch((error: unknown) => showProblem(problemText(error)));
+    if (path) fetchFile(path).catch((error: unknown) => showProblem(problemText(error)));
   });
 }
 

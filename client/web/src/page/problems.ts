@@ -1,4 +1,3 @@
-import { Problem } from "../shared/problem";
 import type { ProblemText } from "../shared/protocol";
 import { element, find } from "./dom";
 import { askForToken } from "./token";
@@ -16,10 +15,4 @@ export function showProblem({ cause, detail, field, retryAfter }: ProblemText): 
 
 export function hideProblem(): void {
   find("problems").replaceChildren();
-}
-
-export function problemText(error: unknown): ProblemText {
-  if (error instanceof Problem) return error.text;
-  if (error instanceof DOMException && error.name === "AbortError") return { cause: "CANCELLED", detail: "cancelled" };
-  return { cause: "UNAVAILABLE", detail: error instanceof TypeError ? "the server cannot be reached" : String(error) };
 }

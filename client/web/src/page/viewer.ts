@@ -56,6 +56,7 @@ export class Viewer {
   /** Half the edges of the box around the part, which lies around the origin. */
   frame(half: Point): void {
     this.half = new Vector3(...half);
+    this.uncut();
     this.fit();
   }
 

@@ -1,6 +1,7 @@
 import { fromJson, type JsonValue } from "@bufbuild/protobuf";
 import { RepresentationSchema, type Representation, type Session } from "../gen/vsplit/v1/meshing_pb";
 import type { ColourBy } from "../shared/colours";
+import { Problem, problemText } from "../shared/problem";
 import type { Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
 import { getQuality, getSession, meshPath } from "./api";
 import { readPlace, writePlace } from "./address";
@@ -8,7 +9,7 @@ import { count, find } from "./dom";
 import { legend } from "./legend";
 import { findingList, resultNotes, worstList } from "./lists";
 import { MeshWorker } from "./mesh_worker";
-import { problemText, showProblem } from "./problems";
+import { showProblem } from "./problems";
 import { ProgressBar, workPlace } from "./progress";
 import { qualityTable, spreadTable, stretchHistogram } from "./quality_panel";
 import { ResolutionSlider } from "./resolution";
@@ -63,6 +64,7 @@ export class Workbench {
 
   /** A session whose mesh was just uploaded. */
   open(session: Session, name: string): void {
+    if (!session.source) throw new Problem({ cause: "EMPTY_INPUT", detail: `session ${session.id} has no mesh; upload one` });
     this.source.end();
     this.result.end();
     this.source = this.worker("source");

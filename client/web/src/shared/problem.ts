@@ -7,8 +7,18 @@ export class Problem extends Error {
   }
 }
 
+export const unreachable = new Problem({ cause: "UNAVAILABLE", detail: "the server cannot be reached" });
+
 export function fail(detail: string): Problem {
   return new Problem({ cause: "INTERNAL", detail });
+}
+
+/** From whatever was thrown: fetch throws a TypeError where it gets no answer. */
+export function problemText(error: unknown): ProblemText {
+  if (error instanceof Problem) return error.text;
+  if (error instanceof DOMException && error.name === "AbortError") return { cause: "CANCELLED", detail: "cancelled" };
+  if (error instanceof TypeError && /fetch|network/i.test(error.message)) return unreachable.text;
+  return fail(String(error)).text;
 }
 
 /** From what the server answered: problem+json, or else its status. */

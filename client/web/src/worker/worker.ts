@@ -5,7 +5,7 @@ import type { Status } from "../gen/google/rpc/status_pb";
 import { RecordEncoding, RepresentationSchema, type Representation } from "../gen/vsplit/v1/meshing_pb";
 import { access, fields } from "../shared/access";
 import type { ColourBy } from "../shared/colours";
-import { fail, problemOf, Problem } from "../shared/problem";
+import { fail, problemOf, problemText, Problem } from "../shared/problem";
 import type { News, Order, Point } from "../shared/protocol";
 import { measure } from "./figures";
 import { eventsOf } from "./frames";
@@ -187,9 +187,7 @@ self.onmessage = async ({ data }: MessageEvent<Order>) => {
   try {
     await obey(data);
   } catch (error) {
-    const left = error instanceof DOMException && error.name === "AbortError";
-    if (left) tell({ kind: "problem", problem: { cause: "CANCELLED", detail: "cancelled" } });
-    else tell({ kind: "problem", problem: (error instanceof Problem ? error : fail(String(error))).text });
+    tell({ kind: "problem", problem: problemText(error) });
   }
   tell({ kind: "idle" });
 };
