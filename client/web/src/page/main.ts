@@ -100,6 +100,7 @@ function startTools(): void {
     share.disabled = axis.value === "";
     viewer.cut(axis.value === "" ? undefined : Number(axis.value), Number(share.value));
   };
+  viewer.shown = (view) => (find<HTMLSelectElement>("view").value = view);
   viewer.uncut = () => {
     axis.value = "";
     cut();

@@ -22,6 +22,8 @@ export class Viewer {
   private readonly edges = { value: 1 };
   private readonly faces: Record<Slot, Faces>;
   private readonly marker = new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ color: 0xff00c8, depthTest: false, transparent: true, opacity: 0.85 }));
+  /** Told which view it is now. */
+  shown: (view: View) => void = () => undefined;
   /** Called where the cut hides what is flown to. */
   uncut: () => void = () => undefined;
   private half = new Vector3(1, 1, 1);
@@ -103,6 +105,7 @@ export class Viewer {
 
   show(view: View): void {
     this.view = view;
+    this.shown(view);
     this.place.dataset["view"] = view;
     this.resize();
   }
