@@ -43,12 +43,16 @@ test.each(names)("%s: any level is the finest of at most so many faces, and come
 test.each(names)("%s: patches make the same faces as drawing all", (name) => {
   const held = load(name);
   const painter = new Painter([1, 2, 3]);
-  const drawn: number[] = [];
+  painter.colourBy("valence", 0); // the colour that depends on most: on edges to vertices that did not move
+  const drawn: number[] = [], coloured: number[] = [];
   held.takeChanges();
-  const apply = ({ runs, positions }: { runs: Uint32Array; positions: Float32Array }) => {
+  const apply = ({ runs, positions, colours }: { runs: Uint32Array; positions: Float32Array; colours: Uint8Array }) => {
     let from = 0;
     for (let n = 0; n < runs.length; n += 2) {
-      for (let k = 0; k < 9 * runs[n + 1]!; ++k) drawn[9 * runs[n]! + k] = positions[from++]!;
+      for (let k = 0; k < 9 * runs[n + 1]!; ++k) {
+        drawn[9 * runs[n]! + k] = positions[from]!;
+        coloured[9 * runs[n]! + k] = colours[from++]!;
+      }
     }
   };
   apply(painter.whole(held.mesh));
@@ -57,5 +61,24 @@ test.each(names)("%s: patches make the same faces as drawing all", (name) => {
     held.show(Math.round(share * most));
     apply(painter.some(held.mesh, held.takeChanges()));
     expect(drawn.slice(0, 9 * held.mesh.faceCount)).toEqual([...painter.whole(held.mesh).positions]);
+    expect(coloured.slice(0, 9 * held.mesh.faceCount)).toEqual([...painter.whole(held.mesh).colours]);
+  }
+});
+
+test.each(names)("%s: a face whose colour by valence changes is among the changes", (name) => {
+  const held = load(name);
+  const painter = new Painter([0, 0, 0]);
+  painter.colourBy("valence", 0);
+  held.takeChanges();
+  let before = painter.whole(held.mesh).colours;
+  for (let faces = held.visibleHeld - 2, n = 0; n < 40; ++n, faces += n % 3 === 2 ? 2 : -2) {
+    held.show(faces);
+    const changes = new Set(held.takeChanges());
+    const { colours } = painter.whole(held.mesh);
+    for (let f = 0; f < held.mesh.faceCount; ++f) {
+      const same = colours.subarray(9 * f, 9 * f + 9).every((value, k) => value === before[9 * f + k]);
+      expect(same || changes.has(f)).toBe(true);
+    }
+    before = colours;
   }
 });

@@ -180,8 +180,7 @@ export class ProgressiveMesh {
     ++this.level;
     this.applied[this.records++] = Kind.Split;
     if (this.touched) {
-      this.touched(v);
-      this.touched(w);
+      for (const vertex of [v, w, b, e]) this.touched(vertex);
     }
   }
 
@@ -214,7 +213,9 @@ export class ProgressiveMesh {
     this.cornerOf[corners[before]!] = before;
     this.restore(v);
     --this.level;
-    this.touched?.(v);
+    if (this.touched) {
+      for (const vertex of [v, corners[fanEnd]!, corners[before]!]) this.touched(vertex);
+    }
   }
 
   private valenceIsUnder4(corner: number): boolean {

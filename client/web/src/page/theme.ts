@@ -5,14 +5,16 @@ export function startTheme(changed: (background: string) => void): void {
   const button = find<HTMLButtonElement>("theme");
   const system = matchMedia("(prefers-color-scheme: dark)");
   const root = document.documentElement;
+  let chosen: boolean | undefined;
   const apply = (): void => {
-    const dark = root.dataset["theme"] === undefined ? system.matches : root.dataset["theme"] === "dark";
+    const dark = chosen ?? system.matches;
+    root.dataset["theme"] = dark ? "dark" : "light";
     button.textContent = dark ? "Light" : "Dark";
     button.setAttribute("aria-label", dark ? "Use light colours" : "Use dark colours");
     changed(getComputedStyle(root).getPropertyValue("--canvas").trim());
   };
   button.addEventListener("click", () => {
-    root.dataset["theme"] = button.textContent === "Dark" ? "dark" : "light";
+    chosen = root.dataset["theme"] === "light";
     apply();
   });
   system.addEventListener("change", apply);
