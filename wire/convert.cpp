@@ -150,11 +150,11 @@ v1::Slivers to_proto(const Slivers& slivers) {
     return proto;
 }
 
-v1::RecordCounts count_records(const RecordSpan& records) {
+v1::RecordCounts count_records(const MrrExtent& extent) {
     v1::RecordCounts proto;
-    proto.set_splits(static_cast<std::uint32_t>(records.splits.size()));
-    proto.set_flips(static_cast<std::uint32_t>(records.flips.size()));
-    proto.set_moves(static_cast<std::uint32_t>(records.moves.size()));
+    proto.set_splits(extent.splits);
+    proto.set_flips(extent.flips);
+    proto.set_moves(extent.moves);
     return proto;
 }
 

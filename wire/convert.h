@@ -9,6 +9,7 @@
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/method/method_options.h"
 #include "vsplit/method/method_result.h"
+#include "vsplit/mrr/mrr_extent.h"
 #include "vsplit/mrr/record_block.h"
 #include "vsplit/quality/element_quality.h"
 #include "vsplit/quality/mesh_quality.h"
@@ -35,7 +36,7 @@ namespace vsplit::wire {
 
 [[nodiscard]] v1::Violation to_proto(const Violation& violation);
 [[nodiscard]] v1::Slivers to_proto(const Slivers& slivers);
-[[nodiscard]] v1::RecordCounts count_records(const RecordSpan& records);
+[[nodiscard]] v1::RecordCounts count_records(const MrrExtent& extent);
 
 [[nodiscard]] v1::Progress to_proto(const Progress& progress);
 

@@ -53,20 +53,20 @@ std::string reason_of(const v1::Representation& representation, const std::strin
 }  // namespace
 
 v1::Representation describe(const std::string& id, const std::string& source_representation, std::uint32_t source_faces,
-                            const MethodResult& result) {
+                            const MethodFigures& figures, const MrrExtent& extent) {
     v1::Representation proto;
     proto.set_id(id);
     proto.mutable_source()->set_representation(source_representation);
     proto.mutable_source()->set_faces(source_faces);
-    std::visit([&](const auto& o) { set_options(o, proto); }, result.options);
-    proto.set_faces_min(result.mrr.faces_min());
-    proto.set_faces_max(result.mrr.faces_max());
-    proto.set_faces(result.faces);
-    *proto.mutable_quality() = to_proto(result.quality);
-    set_violations(result.violations, proto);
-    for (const Slivers& slivers : result.slivers) *proto.add_slivers() = to_proto(slivers);
-    *proto.mutable_records() = count_records(result.mrr.records);
-    *proto.mutable_elapsed() = to_duration(result.elapsed);
+    std::visit([&](const auto& o) { set_options(o, proto); }, figures.options);
+    proto.set_faces_min(extent.faces_min);
+    proto.set_faces_max(extent.faces_max);
+    proto.set_faces(figures.faces);
+    *proto.mutable_quality() = to_proto(figures.quality);
+    set_violations(figures.violations, proto);
+    for (const Slivers& slivers : figures.slivers) *proto.add_slivers() = to_proto(slivers);
+    *proto.mutable_records() = count_records(extent);
+    *proto.mutable_elapsed() = to_duration(figures.elapsed);
     return proto;
 }
 

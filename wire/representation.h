@@ -3,6 +3,7 @@
 #include <string>
 
 #include "vsplit/method/method_result.h"
+#include "vsplit/mrr/mrr_extent.h"
 #include "vsplit/v1/meshing.pb.h"
 
 namespace vsplit::wire {
@@ -10,7 +11,7 @@ namespace vsplit::wire {
 /// The message about what a method made.
 /// `source_representation` is empty, and `source_faces` the mesh's own count, where the upload was worked on. O(1).
 [[nodiscard]] v1::Representation describe(const std::string& id, const std::string& source_representation,
-                                          std::uint32_t source_faces, const MethodResult& result);
+                                          std::uint32_t source_faces, const MethodFigures& figures, const MrrExtent& extent);
 
 /// Moves the figures of a Representation to another of its resolutions, whose mesh is given: faces, quality, and, for CONTROL,
 /// what breaks its bounds there. What the method said of a bound stays its reason; what takes the source to tell, deviations and

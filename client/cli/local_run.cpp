@@ -78,7 +78,7 @@ Expected<Outcome> run_method(const Arguments& a, const Options& options, const M
     const MethodLimits limits;
     Expected<MethodResult> result = method(*source, limits, context);
     if (!result) return result.error();
-    v1::Representation made = wire::describe("", "", source->face_count(), *result);
+    v1::Representation made = wire::describe("", "", source->face_count(), *result, extent_of(result->mrr));
     TriangleMesh mesh = mesh_at(result->mrr, result->mrr.level_for(result->faces));
     return Outcome{std::move(made), std::move(mesh), std::move(result->mrr), *std::move(source)};
 }
@@ -154,9 +154,10 @@ v1::Representation description_of(const StoredMrr& stored) {
     v1::Representation representation;
     const Status read = wire::from_json(stored.description, representation, wire::UnknownFields::kIgnored);
     if (!read) representation.Clear();
-    representation.set_faces_min(stored.mrr.faces_min());
-    representation.set_faces_max(stored.mrr.faces_max());
-    *representation.mutable_records() = wire::count_records(stored.mrr.records);
+    const MrrExtent extent = extent_of(stored.mrr);
+    representation.set_faces_min(extent.faces_min);
+    representation.set_faces_max(extent.faces_max);
+    *representation.mutable_records() = wire::count_records(extent);
     return representation;
 }
 

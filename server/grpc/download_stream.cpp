@@ -1,6 +1,7 @@
 #include "grpc/download_stream.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -15,28 +16,36 @@
 namespace vsplit::rpc {
 namespace {
 
-Expected<service::FileMapping> map_file(std::string_view text) {
-    Expected<service::TempFile> file = service::TempFile::create();
+Expected<service::FileMapping> map_file(std::string_view text, const std::filesystem::path& directory) {
+    Expected<service::TempFile> file = service::TempFile::create(directory);
     if (!file) return file.error();
     if (Status written = file->append(std::as_bytes(std::span(text))); !written) return written.error();
     return file->map();
 }
 
-/// Order 2 where there is a surface to put the nodes on.
-Expected<DownloadSource::File> write_file(const TriangleMesh& mesh, MeshFormat format, const TriangleMesh* surface) {
+/// With mid-side nodes on `surface`. Counts those that are on their edges' chords.
+Expected<std::string> write_order_2(const TriangleMesh& mesh, MeshFormat format, const service::SourceMesh& source,
+                                    std::uint32_t& on_chord) {
+    const Expected<std::shared_ptr<const TriangleMesh>> surface = source.mesh->get();
+    if (!surface) return surface.error();
+    const Expected<MidsideNodes> nodes = midside_nodes(mesh, **surface, ExecutionContext({}, 1));
+    if (!nodes) return nodes.error();
+    on_chord = nodes->on_chord;
+    return write_second_order(mesh, *nodes, format);
+}
+
+/// Order 2 where there is a source to put the nodes on.
+Expected<DownloadSource::File> write_file(const service::PickedMesh& picked, MeshFormat format,
+                                          const service::SourceMesh* surface, const std::filesystem::path& directory) {
+    const Expected<service::OpenedMesh> opened = picked.open();
+    if (!opened) return opened.error();
     DownloadSource::File file;
-    std::string text;
-    if (surface == nullptr) {
-        text = write_mesh(mesh, format);
-    } else {
-        const Expected<MidsideNodes> nodes = midside_nodes(mesh, *surface, ExecutionContext({}, 1));
-        if (!nodes) return nodes.error();
-        Expected<std::string> written = write_second_order(mesh, *nodes, format);
-        if (!written) return written.error();
-        text = *std::move(written);
-        file.nodes_on_chord = nodes->on_chord;
-    }
-    Expected<service::FileMapping> mapped = map_file(text);
+    file.mesh = opened->ref;
+    const Expected<std::string> text = surface == nullptr
+                                           ? Expected<std::string>(write_mesh(*opened->mesh, format))
+                                           : write_order_2(*opened->mesh, format, *surface, file.nodes_on_chord);
+    if (!text) return text.error();
+    Expected<service::FileMapping> mapped = map_file(*text, directory);
     if (!mapped) return mapped.error();
     file.mapping.emplace(*std::move(mapped));
     return file;
@@ -84,8 +93,8 @@ std::string file_name(const service::MeshRef& mesh, MeshFormat format) {
 
 }  // namespace
 
-DownloadSource::DownloadSource(const service::PickedMesh& mesh, MeshFormat format, std::shared_ptr<Prepared> prepared)
-    : mesh_(mesh.ref()), format_(format), prepared_(std::move(prepared)) {}
+DownloadSource::DownloadSource(MeshFormat format, std::shared_ptr<Prepared> prepared)
+    : format_(format), prepared_(std::move(prepared)) {}
 
 Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service,
                                                                              const service::Caller& caller,
@@ -100,13 +109,13 @@ Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(ser
     Expected<service::PickedMesh> mesh = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
     if (!mesh) return mesh.error();
     auto prepared = std::make_shared<Prepared>();
-    const std::shared_ptr<const TriangleMesh> surface = request.order() == 2 && session->source ? session->source->mesh : nullptr;
-    const bool taken = service.errand([prepared, wake, mesh = *mesh, format, surface] {
-        prepared->put(service::guarded([&] { return write_file(*mesh.mesh(), format, surface.get()); }));
+    const std::shared_ptr<const service::SourceMesh> surface = request.order() == 2 ? session->source : nullptr;
+    const bool taken = service.errand([prepared, wake, mesh = *mesh, format, surface, &options = service.options()] {
+        prepared->put(service::guarded([&] { return write_file(mesh, format, surface.get(), options.temp_directory); }));
         wake();
     });
     if (!taken) return Error{Cause::kUnavailable, "the server is shutting down", ""};
-    return std::unique_ptr<MessageSource>(new DownloadSource(*mesh, format, std::move(prepared)));
+    return std::unique_ptr<MessageSource>(new DownloadSource(format, std::move(prepared)));
 }
 
 DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& end) {
@@ -117,9 +126,8 @@ DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& en
             end = wire::to_status(prepared->error());
             return Step::kEnd;
         }
-        file_ = std::move((*prepared)->mapping);
-        nodes_on_chord_ = (*prepared)->nodes_on_chord;
-    } else if (sent_ == file_->bytes().size()) {
+        file_ = std::move(**prepared);
+    } else if (sent_ == file_->mapping->bytes().size()) {
         return Step::kEnd;
     }
     fill(chunk);
@@ -128,16 +136,16 @@ DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& en
 
 void DownloadSource::fill(v1::MeshChunk& chunk) {
     chunk.Clear();
-    const std::span<const std::byte> rest = file_->bytes().subspan(sent_);
+    const std::span<const std::byte> rest = file_->mapping->bytes().subspan(sent_);
     const std::span<const std::byte> part = rest.first(std::min(rest.size(), kChunkBytes));
     chunk.set_offset(sent_);
     chunk.set_data(part.data(), part.size());
     if (sent_ == 0) {
         chunk.set_size(rest.size());
-        chunk.set_file_name(file_name(mesh_, format_));
+        chunk.set_file_name(file_name(file_->mesh, format_));
         chunk.set_content_type(content_type(format_));
-        chunk.set_faces(mesh_.faces);
-        chunk.set_nodes_on_chord(nodes_on_chord_);
+        chunk.set_faces(file_->mesh.faces);
+        chunk.set_nodes_on_chord(file_->nodes_on_chord);
     }
     sent_ += part.size();
 }

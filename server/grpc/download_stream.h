@@ -20,6 +20,7 @@ public:
     static constexpr std::size_t kChunkBytes = std::size_t{256} * 1024;
 
     struct File {
+        service::MeshRef mesh;  ///< as written
         std::optional<service::FileMapping> mapping;
         std::uint32_t nodes_on_chord = 0;
     };
@@ -34,15 +35,13 @@ public:
 private:
     using Prepared = Mailbox<Expected<File>>;
 
-    DownloadSource(const service::PickedMesh& mesh, MeshFormat format, std::shared_ptr<Prepared> prepared);
+    DownloadSource(MeshFormat format, std::shared_ptr<Prepared> prepared);
 
     void fill(v1::MeshChunk& chunk);
 
-    const service::MeshRef mesh_;
     const MeshFormat format_;
     const std::shared_ptr<Prepared> prepared_;
-    std::optional<service::FileMapping> file_;
-    std::uint32_t nodes_on_chord_ = 0;
+    std::optional<File> file_;
     std::size_t sent_ = 0;
 };
 

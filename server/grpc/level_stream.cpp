@@ -15,9 +15,9 @@ namespace vsplit::rpc {
 LevelParts::LevelParts(service::MeshingService& service, service::ResolutionPlan plan, const EncodingChoice& choice, Wake wake)
     : service_(&service), plan_(std::move(plan)), choice_(choice), wake_(std::move(wake)), record_(plan_.first_record) {
     if (!plan_.with_base) return;
-    region_parts_ = wire::region_parts(plan_.representation->mrr());
+    region_parts_ = wire::region_parts(plan_.levels->mrr());
     const bool plain = choice_.encoding == RecordEncoding::kFloat64;
-    if (plain) base_parts_ = wire::base_mesh_parts(plan_.representation->mrr().base);
+    if (plain) base_parts_ = wire::base_mesh_parts(plan_.levels->mrr().base);
 }
 
 Expected<LevelParts::Step> LevelParts::next(v1::ProgressiveEvent& event) {
@@ -63,12 +63,12 @@ Status LevelParts::take_made() {
 Status LevelParts::begin_errand() {
     if (waiting_) return Done{};
     waiting_ = true;
-    const auto work = [box = box_, wake = wake_, representation = plan_.representation, choice = choice_, made = made_,
+    const auto work = [box = box_, wake = wake_, levels = plan_.levels, choice = choice_, made = made_,
                        with_base = plan_.with_base, first = record_, last = plan_.last_record]() mutable {
         box->put(service::guarded([&]() -> Expected<Made> {
             if (!made.encoded) {
-                made.encoded = representation->encoded(choice);
-                if (with_base) made.base = wire::pack_base_mesh(representation->mrr(), made.encoded->grid());
+                made.encoded = levels->encoded(choice);
+                if (with_base) made.base = wire::pack_base_mesh(levels->mrr(), made.encoded->grid());
             }
             if (first == last) return std::move(made);
             Expected<service::EncodedRecords::Block> block = made.encoded->find_or_make(first, last);
@@ -85,12 +85,12 @@ Status LevelParts::begin_errand() {
 /// After the base mesh and before records.
 bool LevelParts::next_regions(v1::ProgressiveEvent& event) {
     if (region_part_ == region_parts_) return false;
-    *event.mutable_regions() = wire::region_part(plan_.representation->mrr(), region_part_++);
+    *event.mutable_regions() = wire::region_part(plan_.levels->mrr(), region_part_++);
     return true;
 }
 
 bool LevelParts::next_plain(v1::ProgressiveEvent& event) {
-    const MultiresMesh& mrr = plan_.representation->mrr();
+    const MultiresMesh& mrr = plan_.levels->mrr();
     if (base_part_ < base_parts_) {
         *event.mutable_base_mesh() = wire::base_mesh_part(mrr.base, base_part_++, mrr.ghosts);
         return true;
@@ -112,36 +112,51 @@ Expected<std::unique_ptr<MessageSource<v1::ProgressiveEvent>>> LevelSource::make
     if (!choice) return choice.error();
     const Expected<service::SessionSnapshot> session = service.snapshot(request.session(), caller);
     if (!session) return session.error();
-    Expected<service::ResolutionPlan> plan = service::plan_resolution(
-        *session, {request.representation(), request.faces_held(), request.faces(), request.resume_from()});
-    if (!plan) return plan.error();
-    auto last = std::make_shared<Last>();
-    const bool taken = service.errand([last, wake, representation = plan->representation, level = plan->level] {
-        last->put(service::guarded([&]() -> Expected<v1::Representation> { return to_proto(*representation, level); }));
+    const service::ResolutionRequest wanted{request.representation(), request.faces_held(), request.faces(),
+                                            request.resume_from()};
+    const auto representation = service::find_requested(*session, wanted);
+    if (!representation) return representation.error();
+    auto news = std::make_shared<News>();
+    const bool taken = service.errand([news, wake, wanted, representation = *representation] {
+        Expected<service::ResolutionPlan> plan =
+            service::guarded([&] { return service::plan_resolution(representation, wanted); });
+        const bool found = plan.has_value();
+        const service::ResolutionPlan kept = found ? *plan : service::ResolutionPlan();
+        news->plan.put(std::move(plan));
+        wake();
+        if (!found) return;
+        news->last.put(service::guarded([&]() -> Expected<v1::Representation> {
+            return to_proto(*representation, *kept.levels, kept.level);
+        }));
         wake();
     });
     if (!taken) return Error{Cause::kUnavailable, "the server is shutting down", ""};
-    LevelParts parts(service, *std::move(plan), *choice, wake);
-    return std::unique_ptr<MessageSource>(new LevelSource(std::move(parts), std::move(last)));
+    return std::unique_ptr<MessageSource>(new LevelSource(service, *choice, wake, std::move(news)));
 }
 
 LevelSource::Step LevelSource::next(v1::ProgressiveEvent& event, grpc::Status& end) {
-    if (ended_) return Step::kEnd;
-    const Expected<Step> step = parts_.next(event);
-    if (!step) {
-        end = wire::to_status(step.error());
-        return Step::kEnd;
-    }
-    if (*step != Step::kEnd) return *step;
-    std::optional<Expected<v1::Representation>> last = last_->take();
-    if (!last) return Step::kWait;
-    ended_ = true;
-    if (*last) {
-        *event.mutable_representation() = **std::move(last);
-        return Step::kMessage;
-    }
-    end = wire::to_status(last->error());
+    const Expected<Step> step = next_or_error(event);
+    if (step) return *step;
+    end = wire::to_status(step.error());
     return Step::kEnd;
+}
+
+Expected<LevelSource::Step> LevelSource::next_or_error(v1::ProgressiveEvent& event) {
+    if (ended_) return Step::kEnd;
+    if (!parts_) {
+        std::optional<Expected<service::ResolutionPlan>> plan = news_->plan.take();
+        if (!plan) return Step::kWait;
+        if (!*plan) return plan->error();
+        parts_.emplace(service_, **std::move(plan), choice_, wake_);
+    }
+    const Expected<Step> step = parts_->next(event);
+    if (!step || *step != Step::kEnd) return step;
+    std::optional<Expected<v1::Representation>> last = news_->last.take();
+    if (!last) return Step::kWait;
+    if (!*last) return last->error();
+    ended_ = true;
+    *event.mutable_representation() = **std::move(last);
+    return Step::kMessage;
 }
 
 }  // namespace vsplit::rpc

@@ -58,7 +58,7 @@ private:
 /// SetResolution: parts, and last the representation, whose figures an errand works out meanwhile.
 class LevelSource final : public MessageSource<v1::ProgressiveEvent> {
 public:
-    /// \return NOT_FOUND, NOT_READY, INVALID_OPTION, UNAVAILABLE.
+    /// \return NOT_FOUND, NOT_READY, INVALID_OPTION (encoding), UNAVAILABLE. What else is wrong with the request the stream ends with.
     [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
                                                                        const service::Caller& caller,
                                                                        const v1::SetResolutionRequest& request, const Wake& wake);
@@ -66,12 +66,22 @@ public:
     [[nodiscard]] Step next(v1::ProgressiveEvent& event, grpc::Status& end) override;
 
 private:
-    using Last = Mailbox<Expected<v1::Representation>>;
+    /// What the errand brings: first where to begin, later what the level is like.
+    struct News {
+        Mailbox<Expected<service::ResolutionPlan>> plan;
+        Mailbox<Expected<v1::Representation>> last;
+    };
 
-    LevelSource(LevelParts parts, std::shared_ptr<Last> last) : parts_(std::move(parts)), last_(std::move(last)) {}
+    LevelSource(service::MeshingService& service, const EncodingChoice& choice, Wake wake, std::shared_ptr<News> news)
+        : service_(service), choice_(choice), wake_(std::move(wake)), news_(std::move(news)) {}
 
-    LevelParts parts_;
-    const std::shared_ptr<Last> last_;
+    [[nodiscard]] Expected<Step> next_or_error(v1::ProgressiveEvent& event);
+
+    service::MeshingService& service_;
+    const EncodingChoice choice_;
+    const Wake wake_;
+    const std::shared_ptr<News> news_;
+    std::optional<LevelParts> parts_;
     bool ended_ = false;
 };
 

@@ -68,8 +68,10 @@ Status get_quality(service::MeshingService& service, const service::Caller& call
     if (!session) return session.error();
     const Expected<service::PickedMesh> picked = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
     if (!picked) return picked.error();
-    response = wire::to_proto(picked->quality(), worst_faces(*picked->mesh(), worst));
-    if (*profile) *response.mutable_profile() = wire::to_proto(check_profile(*picked->mesh(), **profile, worst));
+    const Expected<service::OpenedMesh> opened = picked->open();
+    if (!opened) return opened.error();
+    response = wire::to_proto(opened->quality(), worst_faces(*opened->mesh, worst));
+    if (*profile) *response.mutable_profile() = wire::to_proto(check_profile(*opened->mesh, **profile, worst));
     return Done{};
 }
 
@@ -147,8 +149,8 @@ grpc::ServerUnaryReactor* MeshingRpcs::ListSessions(Context* context, const v1::
 
 grpc::ServerUnaryReactor* MeshingRpcs::DeleteSession(Context* context, const v1::DeleteSessionRequest* request,
                                                      google::protobuf::Empty* /*response*/) {
-    return answer_now(
-        context, RpcWatch(ledger_, *context, "DeleteSession", request->session()),
+    return answer_later(
+        context, RpcWatch(ledger_, *context, "DeleteSession", request->session()), &service::MeshingService::disk_errand,
         [this, request](const service::Caller& caller) { return service_.sessions().remove(request->session(), caller.owner); });
 }
 

@@ -70,8 +70,9 @@ MethodSource::Step MethodSource::next_news(v1::ProgressiveEvent& event, grpc::St
         end = wire::to_status(outcome->error());
         return Step::kEnd;
     }
-    result_ = **outcome;
-    parts_.emplace(service_, service::plan_from_nothing(result_, result_->level_for(0)), choice_, wake_);
+    result_ = (*outcome)->representation;
+    const std::uint32_t faces = result_->figures().faces;
+    parts_.emplace(service_, service::plan_from_nothing(result_, (*outcome)->levels, faces), choice_, wake_);
     return next_part(event, end);
 }
 

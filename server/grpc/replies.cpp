@@ -41,13 +41,13 @@ v1::Session to_proto(const service::SessionSnapshot& session) {
 
 v1::Representation to_proto(const service::Representation& representation) {
     const service::MeshRef& source = representation.source();
-    return wire::describe(representation.id(), source.representation, source.faces, representation.result());
+    return wire::describe(representation.id(), source.representation, source.faces, representation.figures(), representation.extent());
 }
 
-v1::Representation to_proto(const service::Representation& representation, std::size_t level) {
+v1::Representation to_proto(const service::Representation& representation, const service::Levels& levels, std::size_t level) {
     v1::Representation proto = to_proto(representation);
-    const std::uint32_t made_for = representation.result().faces;
-    if (representation.mrr().faces_at(level) != made_for) wire::describe_resolution(*representation.mesh(level), proto);
+    const std::uint32_t made_for = representation.figures().faces;
+    if (levels.mrr().faces_at(level) != made_for) wire::describe_resolution(*levels.mesh(level), proto);
     return proto;
 }
 

@@ -28,6 +28,7 @@
 #include "rest/openapi.h"
 #include "rest/rest_server.h"
 #include "service/meshing_service.h"
+#include "store/data_dir.h"
 #include "vsplit/v1/meshing.grpc.pb.h"
 
 namespace vsplit::ops {
@@ -139,6 +140,14 @@ void drain(rpc::GrpcServer& server, rest::RestServer* rest, std::chrono::seconds
     server.shutdown(std::chrono::milliseconds(0));
 }
 
+Expected<std::optional<store::DataDir>> open_data_dir(const ServerOptions& options) {
+    if (options.data_dir.empty()) return std::optional<store::DataDir>();
+    const auto report = [](const std::string& message) { spdlog::warn("{}", message); };
+    Expected<store::DataDir> opened = store::DataDir::open(options.data_dir, options.max_disk_bytes, report);
+    if (!opened) return opened.error();
+    return std::optional(*std::move(opened));
+}
+
 int serve(const ServerOptions& options, const ListenAddress& address, const std::optional<ListenAddress>& http) {
     const Expected<Guard> guard = make_guard(options);
     if (!guard) return fail(guard.error().message);
@@ -148,7 +157,12 @@ int serve(const ServerOptions& options, const ListenAddress& address, const std:
         metrics.job_ended(record);
         log_job(record);
     };
-    service::MeshingService service(service_options);
+    if (service_options.limits.memory_bytes == 0) service_options.limits.memory_bytes = service::usual_memory_limit();
+    Expected<std::optional<store::DataDir>> data = open_data_dir(options);
+    if (!data) return fail(data.error().message);
+    if (*data) service_options.temp_directory = (*data)->uploads();
+    service::MeshingService service(service_options, *data ? (*data)->take_archive() : std::make_unique<service::SessionArchive>());
+    if (const Status restored = service.restore(); !restored) return fail(restored.error().message);
     Expected<std::unique_ptr<rpc::GrpcServer>> server =
         rpc::GrpcServer::start(address.text(address.port), service, extras_of(options, *guard, metrics));
     if (!server) return fail(server.error().message + ": " + why_not_listening(address));

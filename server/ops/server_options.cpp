@@ -89,6 +89,8 @@ private:
             ->check(CLI::Range(0U, kMostThreads));
         app_.add_option("--threads", options_.service.threads, "Threads of one method; 0: all cores")
             ->check(CLI::Range(0U, kMostThreads));
+        app_.add_option("--data-dir", options_.data_dir,
+                        "Directory to keep sessions in, so that they outlive the server. Default: they do not");
         app_.add_option("--session-ttl", ttl_, "Seconds that an unused session lives")
             ->check(CLI::Range(std::int64_t{1}, kLongestTtl));
         app_.add_option("--log-level", options_.log_level, "What is logged to stderr")
@@ -115,6 +117,12 @@ private:
         add("--max-representations", limits.representations, "Representations of a session");
         app_.add_option("--max-waiting", limits.waiting_jobs, "Requests that wait in a session while one runs")->group(kGroup);
         add("--max-queued", limits.queued_jobs, "Requests that wait in all sessions together");
+        app_.add_option("--max-memory-bytes", limits.memory_bytes,
+                        "Bytes of meshes, representations and methods in memory; 0: three quarters of what there is")
+            ->group(kGroup);
+        app_.add_option("--max-disk-bytes", options_.max_disk_bytes,
+                        "Bytes of meshes and representations in --data-dir; 0: no limit")
+            ->group(kGroup);
         add("--max-rpcs", options_.max_rpcs, "Rpcs at a time");
         add("--max-streams", options_.max_streams, "Rpcs of one gRPC connection at a time; more wait at the client")
             ->check(CLI::Range(1U, std::uint32_t{1} << 30));

@@ -22,6 +22,8 @@ struct ServerOptions {
     bool print_openapi = false;
     bool check = false;  ///< asks the server at `listen` whether it serves, and ends
     service::ServiceOptions service;
+    std::string data_dir;              ///< where sessions outlive the server; empty: they do not
+    std::uint64_t max_disk_bytes = 0;  ///< of meshes and representations in it; 0: no limit
     std::string log_level = "info";   ///< debug, info, warning, error, off
     std::string log_format = "text";  ///< text, json
     double slow_job = 60;             ///< seconds; a method that takes longer is in the log as a warning; 0: none

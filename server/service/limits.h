@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 
 #include "service/job_record.h"
 
@@ -20,6 +21,7 @@ struct Limits {
     std::uint32_t representations = 32;                   ///< of a session
     std::uint32_t waiting_jobs = 8;                       ///< of a session, besides the one that runs
     std::uint32_t queued_jobs = 1000;                     ///< of all sessions, for a worker or for another of their session
+    std::uint64_t memory_bytes = 0;  ///< of meshes, representations and methods together; 0: no limit
 };
 
 struct ServiceOptions {
@@ -27,6 +29,7 @@ struct ServiceOptions {
     unsigned workers = 0;                                           ///< methods that run at a time; 0: one a core
     unsigned threads = 1;                                           ///< threads of one method; 0: all cores
     std::chrono::milliseconds session_ttl = std::chrono::hours(1);  ///< an unused session lives this long
+    std::filesystem::path temp_directory{};                         ///< for unnamed files; empty: $TMPDIR or /tmp
     JobObserver job_observer{};                                     ///< for metrics and the log
 };
 

@@ -17,24 +17,14 @@ public:
     /// \pre capacity > 0.
     explicit LruCache(std::size_t capacity) : capacity_(capacity) {}
 
-    /// The value of `key`, from `make()` when it is not kept. Two callers at once may both make it; one of the two is kept.
-    template <class Make>
-    [[nodiscard]] Pointer get_or_make(std::size_t key, const Make& make) {
-        if (Pointer found = find(key)) return found;
-        return insert(key, std::make_shared<const Value>(make()));
-    }
-
-private:
-    struct Entry {
-        std::size_t key = 0;
-        Pointer value;
-    };
-
-    Pointer find(std::size_t key) {
+    /// Null when it is not kept.
+    [[nodiscard]] Pointer find(std::size_t key) {
         const std::lock_guard lock(mutex_);
         return find_locked(key);
     }
 
+    /// Keeps `value`, and the least recently used one no longer. Where another caller was quicker its value stays.
+    /// \return the value that is kept.
     Pointer insert(std::size_t key, Pointer value) {
         std::list<Entry> dropped;  // dies after the lock is released
         const std::lock_guard lock(mutex_);
@@ -43,6 +33,12 @@ private:
         if (entries_.size() > capacity_) dropped.splice(dropped.begin(), entries_, std::prev(entries_.end()));
         return value;
     }
+
+private:
+    struct Entry {
+        std::size_t key = 0;
+        Pointer value;
+    };
 
     Pointer find_locked(std::size_t key) {
         const auto found = std::find_if(entries_.begin(), entries_.end(), [key](const Entry& e) { return e.key == key; });

@@ -18,14 +18,21 @@ std::chrono::milliseconds sweep_interval(std::chrono::milliseconds ttl) {
 
 }  // namespace
 
-MeshingService::MeshingService(const ServiceOptions& options)
+MeshingService::MeshingService(const ServiceOptions& options, std::unique_ptr<SessionArchive> archive)
     : options_(options),
+      memory_(options.limits.memory_bytes),
+      archive_(std::move(archive)),
       methods_(options.workers == 0 ? cores() : options.workers),
       errands_(std::max(2U, cores())),
       intake_(std::max(2U, cores())),
       disk_(kDiskThreads),
-      sessions_(options, methods_),
-      sweeper_(sweep_interval(options.session_ttl), [this] { sessions_.remove_expired(); }) {}
+      sessions_({options_, memory_, *archive_, methods_}),
+      sweeper_(sweep_interval(options.session_ttl), [this] { sweep(); }) {}
+
+void MeshingService::sweep() {
+    sessions_.remove_expired();
+    static_cast<void>(sessions_.note_time());  // where the archive cannot be written to, uploads and methods say so
+}
 
 MeshingService::~MeshingService() { shutdown(); }
 
@@ -45,7 +52,7 @@ Expected<SessionSnapshot> MeshingService::create_session(std::span<const std::by
                                                          const Caller& caller) {
     if (Status room = sessions_.require_room(caller.owner); !room) return room.error();
     if (Status ok = check_settings(settings); !ok) return ok.error();
-    Expected<std::shared_ptr<const SourceMesh>> source = read_source(bytes, settings, options_.limits);
+    Expected<std::shared_ptr<const SourceMesh>> source = read_source(bytes, settings, options_.limits, memory_);
     if (!source) return source.error();
     const Expected<std::shared_ptr<Session>> created = sessions_.create(*std::move(source), caller.owner);
     if (!created) return created.error();
@@ -55,7 +62,7 @@ Expected<SessionSnapshot> MeshingService::create_session(std::span<const std::by
 Expected<Upload> MeshingService::begin_upload(std::string_view session, const UploadSettings& settings, const Caller& caller) {
     Expected<std::shared_ptr<Session>> found = sessions_.find(session, caller.owner);
     if (!found) return found.error();
-    return Upload::begin(*std::move(found), settings, options_.limits);
+    return Upload::begin(*std::move(found), settings, options_, memory_);
 }
 
 Expected<RunningMethod> MeshingService::start(std::string_view session, const MethodRequest& request, JobEvents events,
@@ -65,15 +72,18 @@ Expected<RunningMethod> MeshingService::start(std::string_view session, const Me
     if (Status room = require_room_in_queue(); !room) return room.error();
     if (Status ok = std::visit([](const auto& options) { return check_options(options); }, request.options); !ok)
         return ok.error();
+    auto note = std::make_shared<JobNote>(*archive_, (*found)->number(), request);
     const auto make = [&](const SessionSnapshot& now) -> Expected<std::shared_ptr<Job>> {
         Expected<PickedMesh> source = PickedMesh::pick(now, request.source);
         if (!source) return source.error();
         if (Status accepted = source->require_accepted(); !accepted) return accepted.error();
+        const MethodHost host{options_, memory_, disk_};
         return std::shared_ptr<Job>(
-            std::make_shared<MethodJob>(*found, *std::move(source), request.options, options_, std::move(events), caller));
+            std::make_shared<MethodJob>(*found, *std::move(source), request, host, note, std::move(events), caller));
     };
-    Expected<std::shared_ptr<Job>> job = (*found)->enqueue(make);
+    Expected<std::shared_ptr<Job>> job = (*found)->enqueue(request.options, make);
     if (!job) return job.error();
+    static_cast<void>(disk_.submit([note] { note->write(); }));
     return RunningMethod{*found, *std::move(job)};
 }
 
@@ -87,13 +97,14 @@ Status MeshingService::require_room_in_queue() const {
 
 ServiceLoad MeshingService::load() const {
     const WorkerPool::Load methods = methods_.load();
-    return {sessions_.count(), methods.running, methods.waiting + sessions_.waiting_jobs()};
+    return {sessions_.count(), methods.running, methods.waiting + sessions_.waiting_jobs(), memory_.use(), archive_->use()};
 }
 
 void MeshingService::cancel_all() { sessions_.clear({Cause::kUnavailable, "the server is shutting down", ""}); }
 
 void MeshingService::shutdown() {
     sweeper_.stop();
+    static_cast<void>(sessions_.note_time());
     cancel_all();
     methods_.shutdown();
     errands_.shutdown();

@@ -26,24 +26,32 @@ struct ServiceLoad {
     std::size_t sessions = 0;
     std::size_t methods_running = 0;
     std::size_t methods_waiting = 0;  ///< for a worker, or for another method of their session
+    MemoryBudget::Use memory{};
+    ArchiveUse archive{};
 };
 
 /// Everything a front door needs, whatever it speaks. Thread-safe. Functions marked heavy are for a pool, the others return at
 /// once. A session is found by a caller with the owner that it was made for.
 class MeshingService {
 public:
-    explicit MeshingService(const ServiceOptions& options);
+    /// Without an archive sessions end with the service. \pre `archive` is not null.
+    explicit MeshingService(const ServiceOptions& options,
+                            std::unique_ptr<SessionArchive> archive = std::make_unique<SessionArchive>());
     ~MeshingService();
     MeshingService(const MeshingService&) = delete;
     MeshingService& operator=(const MeshingService&) = delete;
 
     [[nodiscard]] const ServiceOptions& options() const { return options_; }
     [[nodiscard]] SessionStore& sessions() { return sessions_; }
+    [[nodiscard]] MemoryBudget& memory() { return memory_; }
+
+    /// Takes over the sessions of the archive. Once, before anything else. \return what SessionArchive::restore returns.
+    [[nodiscard]] Status restore() { return sessions_.restore(); }
 
     /// Whoever calls it a use of the session. \return NOT_FOUND.
     [[nodiscard]] Expected<SessionSnapshot> snapshot(std::string_view session, const Caller& caller = {});
 
-    /// An empty session. \return LIMIT_EXCEEDED.
+    /// An empty session. May wait for the archive. \return LIMIT_EXCEEDED, what SessionArchive::add returns.
     [[nodiscard]] Expected<SessionSnapshot> create_session(const Caller& caller = {});
 
     /// A session with a mesh, or none at all. Heavy: for `intake`. \return LIMIT_EXCEEDED, what `check_settings` and
@@ -82,7 +90,11 @@ public:
 private:
     [[nodiscard]] Status require_room_in_queue() const;
 
+    void sweep();
+
     const ServiceOptions options_;
+    MemoryBudget memory_;
+    const std::unique_ptr<SessionArchive> archive_;
     WorkerPool methods_;
     WorkerPool errands_;
     WorkerPool intake_;

@@ -4,44 +4,53 @@
 #include <variant>
 
 #include "service/guarded.h"
+#include "service/memory_use.h"
 #include "vsplit/method/control.h"
 #include "vsplit/method/improve.h"
 
 namespace vsplit::service {
 
-MethodJob::MethodJob(std::shared_ptr<Session> session, PickedMesh source, const MethodOptions& options,
-                     const ServiceOptions& service, JobEvents events, const Caller& caller)
+MethodJob::MethodJob(std::shared_ptr<Session> session, PickedMesh source, MethodRequest request, const MethodHost& host,
+                     std::shared_ptr<JobNote> note, JobEvents events, const Caller& caller)
     : session_(std::move(session)),
       source_(std::move(source)),
-      options_(options),
-      limits_{service.limits.faces_subdivided},
+      request_(std::move(request)),
+      host_(host),
       events_(std::move(events)),
-      observer_(service.job_observer),
+      note_(std::move(note)),
       request_id_(caller.request_id),
-      context_([this](const Progress& progress) { tell(progress); }, service.threads) {}
+      context_([this](const Progress& progress) { tell(progress); }, host.options.threads) {}
 
 Job::Report MethodJob::run() {
     const auto began = std::chrono::steady_clock::now();
     JobOutcome outcome = guarded([this] { return compute(); });
     if (const std::optional<Error> why = stopped(); why && !outcome) outcome = *why;
-    if (observer_) record(outcome, began);
+    room_.give_back();
+    end_note(outcome);
+    if (host_.options.job_observer) record(outcome, began);
     return [this, outcome = std::move(outcome)] { events_.on_done(outcome); };
+}
+
+/// What the end of the server cuts off stays in the archive, to be told after the next start.
+void MethodJob::end_note(const JobOutcome& outcome) const {
+    if (!outcome && outcome.error().cause == Cause::kUnavailable) return;
+    static_cast<void>(host_.disk.submit([note = note_] { note->erase(); }));
 }
 
 void MethodJob::record(const JobOutcome& outcome, std::chrono::steady_clock::time_point began) const {
     using Seconds = std::chrono::duration<double>;
-    JobRecord record{std::holds_alternative<ImproveOptions>(options_) ? "Improve" : "Control"};
+    JobRecord record{std::holds_alternative<ImproveOptions>(request_.options) ? "Improve" : "Control"};
     record.session = session_->id();
     record.request_id = request_id_;
     record.waited = Seconds(began - asked_).count();
     record.seconds = Seconds(std::chrono::steady_clock::now() - began).count();
-    record.faces_in = source_.faces();
+    record.faces_in = faces_in_;
     if (outcome) {
-        record.faces_out = (*outcome)->result().faces;
+        record.faces_out = outcome->representation->figures().faces;
     } else {
         record.outcome = outcome.error().cause;
     }
-    observer_(record);
+    host_.options.job_observer(record);
 }
 
 void MethodJob::stop(const Error& why) {
@@ -52,23 +61,58 @@ void MethodJob::stop(const Error& why) {
     context_.cancel();
 }
 
-void MethodJob::abandon(const Error& why) { events_.on_done(why); }
+void MethodJob::abandon(const Error& why) {
+    end_note(why);
+    events_.on_done(why);
+}
 
 JobOutcome MethodJob::compute() {
     if (const std::optional<Error> why = stopped()) return *why;
-    const std::shared_ptr<const TriangleMesh> mesh = source_.mesh();
-    Expected<MethodResult> result = std::visit([&](const auto& options) { return apply(options, *mesh); }, options_);
+    const Expected<OpenedMesh> source = source_.open();
+    if (!source) return source.error();
+    faces_in_ = source->ref.faces;
+    const MethodRequest used{source->ref, request_.options};
+    if (const auto before = session_->find_made(used)) {
+        const Expected<std::shared_ptr<const Levels>> levels = before->levels().get();
+        if (!levels) return levels.error();
+        session_->answered(request_);
+        return MadeRepresentation{before, *levels};
+    }
+    return make(used, *source->mesh);
+}
+
+JobOutcome MethodJob::make(const MethodRequest& request, const TriangleMesh& mesh) {
+    if (Status room = make_room(mesh.face_count()); !room) return room.error();
+    Expected<MethodResult> result = std::visit([&](const auto& options) { return apply(options, mesh); }, request.options);
     if (!result) return result.error();
     if (const std::optional<Error> why = stopped()) return *why;
-    return session_->add_representation(source_.ref(), *std::move(result));
+    const auto made = session_->add_representation(request, *std::move(result));
+    if (!made) return made.error();
+    const Expected<std::shared_ptr<const Levels>> levels = (*made)->levels().get();
+    if (!levels) return levels.error();
+    session_->answered(request_);
+    return MadeRepresentation{*made, *levels};
+}
+
+/// For a method on so many faces, in place of the room there was.
+Status MethodJob::make_room(std::uint64_t faces) {
+    room_.give_back();
+    Expected<MemoryBudget::Share> room = host_.memory.reserve(memory_to_simplify(faces), "a method on " + std::to_string(faces) + " faces");
+    if (!room) return room.error();
+    room_ = *std::move(room);
+    return Done{};
+}
+
+MethodLimits MethodJob::limits() {
+    return {host_.options.limits.faces_subdivided, [this](std::uint32_t faces) { return make_room(faces); }};
 }
 
 Expected<MethodResult> MethodJob::apply(const ImproveOptions& options, const TriangleMesh& mesh) {
-    return improve(mesh, options, limits_, context_);
+    return improve(mesh, options, limits(), context_);
 }
 
 Expected<MethodResult> MethodJob::apply(const ControlOptions& options, const TriangleMesh& mesh) {
-    return control(mesh, options, limits_, context_);
+    return control(mesh, options, limits(), context_);
 }
 
 std::optional<Error> MethodJob::stopped() const {

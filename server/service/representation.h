@@ -1,49 +1,39 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 
-#include "service/encoded_records.h"
-#include "service/lru_cache.h"
+#include "service/kept.h"
+#include "service/levels.h"
 #include "service/method_request.h"
-#include "vsplit/mesh/triangle_mesh.h"
 #include "vsplit/method/method_result.h"
-#include "vsplit/quality/mesh_quality.h"
+#include "vsplit/mrr/mrr_extent.h"
 
 namespace vsplit::service {
 
-/// A finished representation of a session. What it says never changes, so readers share it without waiting; the meshes of the
-/// levels asked for last are kept. Thread-safe.
+/// A finished representation of a session. What it says never changes. Its figures are always at hand; its levels are in memory
+/// while there is room. Thread-safe.
 class Representation {
 public:
-    /// `source` as used, defaults filled in.
-    Representation(std::string id, MeshRef source, MethodResult result);
+    /// What was asked for, its source as used.
+    Representation(std::string id, MethodRequest asked, MethodFigures figures, const MrrExtent& extent,
+                   std::shared_ptr<Kept<Levels>> levels);
 
     [[nodiscard]] const std::string& id() const { return id_; }
-    [[nodiscard]] const MeshRef& source() const { return source_; }
-    [[nodiscard]] const MethodResult& result() const { return result_; }
-    [[nodiscard]] const MultiresMesh& mrr() const { return result_.mrr; }
+    [[nodiscard]] const MethodRequest& asked() const { return asked_; }
+    [[nodiscard]] const MeshRef& source() const { return asked_.source; }
+    [[nodiscard]] const MethodFigures& figures() const { return figures_; }
+    [[nodiscard]] const MrrExtent& extent() const { return extent_; }
 
-    /// The level to use for `faces`: the nearest that exists; 0 means the resolution it was made for. O(log(levels)).
-    [[nodiscard]] std::size_t level_for(std::uint32_t faces) const;
-
-    /// Heavy unless cached: O(records up to it). \pre level <= mrr().levels().
-    [[nodiscard]] std::shared_ptr<const TriangleMesh> mesh(std::size_t level) const;
-
-    /// The records in an encoding; those asked for last are kept. Heavy unless kept: O(records). \pre as for EncodedRecords.
-    [[nodiscard]] std::shared_ptr<EncodedRecords> encoded(const EncodingChoice& choice) const;
-
-    /// Heavy: O(records up to it + faces log faces). \pre as for `mesh`.
-    [[nodiscard]] Quality quality(std::size_t level) const;
+    [[nodiscard]] Kept<Levels>& levels() const { return *levels_; }
 
 private:
     const std::string id_;
-    const MeshRef source_;
-    const MethodResult result_;
-    mutable LruCache<TriangleMesh> meshes_;
-    mutable LruCache<std::shared_ptr<EncodedRecords>> encoded_;
+    const MethodRequest asked_;
+    const MethodFigures figures_;
+    const MrrExtent extent_;
+    const std::shared_ptr<Kept<Levels>> levels_;
 };
 
 }  // namespace vsplit::service

@@ -28,13 +28,19 @@ Status check_resume(const MultiresMesh& mrr, std::uint32_t resume_from) {
 
 }  // namespace
 
-Expected<ResolutionPlan> plan_resolution(const SessionSnapshot& session, const ResolutionRequest& request) {
-    auto found =
-        request.representation.empty() ? newest_representation(session) : find_representation(session, request.representation);
-    if (!found) return found.error();
-    const MultiresMesh& mrr = (*found)->mrr();
+Expected<SessionSnapshot::RepresentationPointer> find_requested(const SessionSnapshot& session,
+                                                                const ResolutionRequest& request) {
+    return request.representation.empty() ? newest_representation(session)
+                                          : find_representation(session, request.representation);
+}
+
+Expected<ResolutionPlan> plan_resolution(SessionSnapshot::RepresentationPointer representation,
+                                         const ResolutionRequest& request) {
+    const Expected<std::shared_ptr<const Levels>> levels = representation->levels().get();
+    if (!levels) return levels.error();
+    const MultiresMesh& mrr = (*levels)->mrr();
     if (Status ok = check_resume(mrr, request.resume_from); !ok) return ok.error();
-    ResolutionPlan plan = plan_from_nothing(*found, mrr.level_for(request.faces));
+    ResolutionPlan plan = plan_from_nothing(std::move(representation), *levels, request.faces);
     if (request.faces_held != 0) {
         const Expected<std::size_t> held = level_held(mrr, request.faces_held);
         if (!held) return held.error();
@@ -47,9 +53,11 @@ Expected<ResolutionPlan> plan_resolution(const SessionSnapshot& session, const R
     return plan;
 }
 
-ResolutionPlan plan_from_nothing(SessionSnapshot::RepresentationPointer representation, std::size_t level) {
-    const std::size_t records = representation->mrr().record_of_level(level);
-    return {std::move(representation), level, true, 0, records};
+ResolutionPlan plan_from_nothing(SessionSnapshot::RepresentationPointer representation, std::shared_ptr<const Levels> levels,
+                                 std::uint32_t faces) {
+    const std::size_t level = levels->mrr().level_for(faces);
+    const std::size_t records = levels->mrr().record_of_level(level);
+    return {std::move(representation), std::move(levels), level, true, 0, records};
 }
 
 }  // namespace vsplit::service

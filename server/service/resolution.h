@@ -19,17 +19,25 @@ struct ResolutionRequest {
 /// What is to be sent for it.
 struct ResolutionPlan {
     SessionSnapshot::RepresentationPointer representation;
+    std::shared_ptr<const Levels> levels;  ///< its own
     std::size_t level = 0;         ///< where the client will stand
     bool with_base = false;        ///< the base mesh comes first
     std::size_t first_record = 0;  ///< then records [first_record, last_record)
     std::size_t last_record = 0;
 };
 
-/// \return NOT_FOUND or NOT_READY (representation); INVALID_OPTION when `faces_held` is no resolution of it, naming the nearest,
-/// or when `resume_from` is beyond its last record. O(log(records)).
-[[nodiscard]] Expected<ResolutionPlan> plan_resolution(const SessionSnapshot& session, const ResolutionRequest& request);
+/// \return NOT_FOUND or NOT_READY (representation).
+[[nodiscard]] Expected<SessionSnapshot::RepresentationPointer> find_requested(const SessionSnapshot& session,
+                                                                              const ResolutionRequest& request);
+
+/// Heavy unless the representation's levels are in memory.
+/// \return INVALID_OPTION when `faces_held` is no resolution of it, naming the nearest, or when `resume_from` is beyond its last
+/// record; what Kept::get returns. O(log(records)).
+[[nodiscard]] Expected<ResolutionPlan> plan_resolution(SessionSnapshot::RepresentationPointer representation,
+                                                       const ResolutionRequest& request);
 
 /// All that leads from nothing to a level. O(log(records)).
-[[nodiscard]] ResolutionPlan plan_from_nothing(SessionSnapshot::RepresentationPointer representation, std::size_t level);
+[[nodiscard]] ResolutionPlan plan_from_nothing(SessionSnapshot::RepresentationPointer representation,
+                                               std::shared_ptr<const Levels> levels, std::uint32_t faces);
 
 }  // namespace vsplit::service

@@ -1,18 +1,31 @@
 #include "service/session.h"
 
+#include <algorithm>
 #include <utility>
 
-namespace vsplit::service {
+#include "service/memory_use.h"
 
-Session::Session(std::string id, std::uint64_t number, std::shared_ptr<const SourceMesh> source, const ServiceOptions& options,
-                 WorkerPool& workers, std::string owner)
-    : id_(std::move(id)),
-      owner_(std::move(owner)),
-      number_(number),
-      options_(options),
-      queue_(std::make_shared<JobQueue>(workers, options.limits.waiting_jobs)),
-      expires_(Clock::now() + options.session_ttl),
-      source_(std::move(source)) {}
+namespace vsplit::service {
+namespace {
+
+Error busy_uploading() {
+    return {Cause::kBusy, "an uploaded mesh is just being put into this session; try again", "session", kRetryAfter};
+}
+
+}  // namespace
+
+Session::Session(SessionRecord record, Clock::time_point began, const SessionHost& host)
+    : id_(std::move(record.id)),
+      owner_(std::move(record.owner)),
+      number_(record.number),
+      host_(host),
+      create_time_(record.create_time),
+      queue_(std::make_shared<JobQueue>(host.workers, host.options.limits.waiting_jobs)),
+      expires_(began + record.expires),
+      source_(std::move(record.source)),
+      representations_(std::move(record.representations)),
+      unfinished_(std::move(record.unfinished)),
+      made_(record.made) {}
 
 SessionSnapshot Session::snapshot() const {
     const std::lock_guard lock(mutex_);
@@ -22,17 +35,26 @@ SessionSnapshot Session::snapshot() const {
 // The steady clock decides, so that setting the machine's time deletes nothing; people are shown the system's.
 SessionSnapshot Session::snapshot_locked() const {
     const auto left = std::chrono::duration_cast<std::chrono::system_clock::duration>(expires_ - Clock::now());
-    return {id_, create_time_, std::chrono::system_clock::now() + left, source_, representations_};
+    SessionSnapshot snapshot{id_, create_time_, std::chrono::system_clock::now() + left, source_, representations_, {}};
+    for (const UnfinishedMethod& method : unfinished_) snapshot.interrupted.push_back(method.request);
+    return snapshot;
 }
 
 void Session::touch() {
     const std::lock_guard lock(mutex_);
-    expires_ = Clock::now() + options_.session_ttl;
+    expires_ = Clock::now() + host_.options.session_ttl;
+    used_ = true;
 }
 
 bool Session::expired() const {
     const std::lock_guard lock(mutex_);
-    return Clock::now() >= expires_ && queue_->idle();
+    return Clock::now() >= expires_ && !changing_ && queue_->idle();
+}
+
+std::optional<Session::Clock::time_point> Session::take_expiry() {
+    const std::lock_guard lock(mutex_);
+    if (!std::exchange(used_, false)) return std::nullopt;
+    return expires_;
 }
 
 Status Session::require_idle() const {
@@ -47,54 +69,101 @@ Status Session::require_open_locked() const {
 
 Status Session::require_idle_locked() const {
     if (Status open = require_open_locked(); !open) return open;
+    if (changing_) return busy_uploading();
     if (queue_->idle()) return Done{};
     return Error{Cause::kBusy,
                  "a method runs or waits in this session; upload when it is done or cancelled, or into another session",
                  "session"};
 }
 
-Status Session::set_source(std::shared_ptr<const SourceMesh> source) {
-    std::vector<SessionSnapshot::RepresentationPointer> dropped;  // freed after the lock is released
-    const std::lock_guard lock(mutex_);
-    return set_source_locked(source, dropped);
+Status Session::require_room_locked() const {
+    const std::uint32_t limit = host_.options.limits.representations;
+    if (representations_.size() < limit) return Done{};
+    return Error{Cause::kLimitExceeded,
+                 "the session has " + std::to_string(limit) + " representations, the server's limit max_representations; " +
+                     "upload the mesh again to drop them, or use another session",
+                 "session"};
 }
+
+Status Session::set_source(std::shared_ptr<const SourceMesh> source) { return change_source(nullptr, source); }
 
 Status Session::replace_source(const std::shared_ptr<const SourceMesh>& before, std::shared_ptr<const SourceMesh> source) {
-    std::vector<SessionSnapshot::RepresentationPointer> dropped;
-    const std::lock_guard lock(mutex_);
-    if (source_ != before) {
-        return Error{Cause::kBusy, "the session got another mesh in the meantime; nothing was changed", "session", kRetryAfter};
-    }
-    return set_source_locked(source, dropped);
+    return change_source(before.get(), source);
 }
 
-Status Session::set_source_locked(std::shared_ptr<const SourceMesh>& source,
-                                  std::vector<SessionSnapshot::RepresentationPointer>& dropped) {
+Status Session::begin_change(const SourceMesh* before) {
+    const std::lock_guard lock(mutex_);
+    if (before != nullptr && source_.get() != before) {
+        return Error{Cause::kBusy, "the session got another mesh in the meantime; nothing was changed", "session", kRetryAfter};
+    }
     if (Status idle = require_idle_locked(); !idle) return idle;
-    source_.swap(source);
-    representations_.swap(dropped);
+    changing_ = true;
     return Done{};
 }
 
-Expected<SessionSnapshot::RepresentationPointer> Session::add_representation(MeshRef source, MethodResult result) {
+Status Session::change_source(const SourceMesh* before, std::shared_ptr<const SourceMesh>& source) {
+    if (Status begun = begin_change(before); !begun) return begun;
+    const Status kept = host_.archive.set_source(number_, *source);
+    Pointers dropped;  // freed after the lock is released
     const std::lock_guard lock(mutex_);
-    if (Status open = require_open_locked(); !open) return open.error();
-    auto made = std::make_shared<const Representation>('r' + std::to_string(++made_), std::move(source), std::move(result));
-    representations_.push_back(made);
-    expires_ = Clock::now() + options_.session_ttl;
-    return SessionSnapshot::RepresentationPointer(std::move(made));
+    changing_ = false;
+    if (!kept) return kept;
+    if (Status open = require_open_locked(); !open) return open;
+    source_.swap(source);
+    representations_.swap(dropped);
+    unfinished_.clear();
+    return Done{};
 }
 
-Expected<std::shared_ptr<Job>> Session::enqueue(const MakeJob& make) {
+SessionSnapshot::RepresentationPointer Session::find_made(const MethodRequest& request) const {
+    const std::lock_guard lock(mutex_);
+    const auto made = std::find_if(representations_.begin(), representations_.end(),
+                                   [&](const auto& representation) { return representation->asked() == request; });
+    return made == representations_.end() ? nullptr : *made;
+}
+
+Expected<SessionSnapshot::RepresentationPointer> Session::add_representation(const MethodRequest& request, MethodResult result) {
+    std::uint64_t made = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        if (Status open = require_open_locked(); !open) return open.error();
+        if (Status room = require_room_locked(); !room) return room.error();
+        made = ++made_;
+    }
+    const MrrExtent extent = extent_of(result.mrr);
+    const std::uint64_t bytes = memory_of(result.mrr);
+    auto levels = Kept<Levels>::hold(std::make_shared<const Levels>(std::move(result.mrr), host_.memory), bytes, host_.memory);
+    auto added = std::make_shared<const Representation>('r' + std::to_string(made), request, std::move(result), extent,
+                                                        std::move(levels));
+    if (Status kept = host_.archive.add_representation(number_, *added, made); !kept) return kept.error();
     const std::lock_guard lock(mutex_);
     if (Status open = require_open_locked(); !open) return open.error();
-    const std::uint32_t limit = options_.limits.representations;
-    if (representations_.size() >= limit) {
-        return Error{Cause::kLimitExceeded,
-                     "the session has " + std::to_string(limit) + " representations, the server's limit max_representations; " +
-                         "upload the mesh again to drop them, or use another session",
-                     "session"};
+    representations_.push_back(added);
+    expires_ = Clock::now() + host_.options.session_ttl;
+    used_ = true;
+    return SessionSnapshot::RepresentationPointer(std::move(added));
+}
+
+void Session::answered(const MethodRequest& request) {
+    std::vector<std::uint64_t> jobs;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto kept = std::stable_partition(unfinished_.begin(), unfinished_.end(),
+                                         [&](const UnfinishedMethod& method) { return method.request != request; });
+        for (auto method = kept; method != unfinished_.end(); ++method) jobs.push_back(method->job);
+        unfinished_.erase(kept, unfinished_.end());
     }
+    // Where this fails the method is told again after the next start, with its result beside it.
+    if (!jobs.empty()) static_cast<void>(host_.archive.remove_jobs(jobs));
+}
+
+Expected<std::shared_ptr<Job>> Session::enqueue(const MethodOptions& options, const MakeJob& make) {
+    const std::lock_guard lock(mutex_);
+    if (Status open = require_open_locked(); !open) return open.error();
+    if (changing_) return busy_uploading();
+    const bool may_be_made = std::any_of(representations_.begin(), representations_.end(),
+                                         [&](const auto& made) { return made->asked().options == options; });
+    if (Status room = require_room_locked(); !room && !may_be_made) return room.error();
     Expected<std::shared_ptr<Job>> job = make(snapshot_locked());
     if (!job) return job;
     if (Status pushed = queue_->push(*job); !pushed) return pushed.error();

@@ -21,7 +21,11 @@ Expected<std::vector<ShapeFeature>> list_features_of(MeshingService& service, st
     if (!found) return found.error();
     const Expected<std::shared_ptr<const SourceMesh>> source = source_of(**found);
     if (!source) return source.error();
-    return guarded([&] { return list_features(*(*source)->mesh, search); });
+    return guarded([&]() -> Expected<std::vector<ShapeFeature>> {
+        const Expected<std::shared_ptr<const TriangleMesh>> mesh = (*source)->mesh->get();
+        if (!mesh) return mesh.error();
+        return list_features(**mesh, search);
+    });
 }
 
 Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::string_view session, const FeatureRemoval& removal,
@@ -33,11 +37,13 @@ Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::strin
     if (!before) return before.error();
     return guarded([&]() -> Expected<FeaturesRemoved> {
         const ExecutionContext context;
-        Expected<FeaturelessMesh> made = remove_features(*(*before)->mesh, removal, context);
+        const Expected<std::shared_ptr<const TriangleMesh>> whole = (*before)->mesh->get();
+        if (!whole) return whole.error();
+        Expected<FeaturelessMesh> made = remove_features(**whole, removal, context);
         if (!made) return made.error();
         if (made->removed.empty()) return FeaturesRemoved{*std::move(made), *before};
-        const auto mesh = std::make_shared<const TriangleMesh>(std::move(made->mesh));
-        auto source = std::make_shared<const SourceMesh>(SourceMesh{mesh, inspect(*mesh)});
+        MeshReport report = inspect(made->mesh);
+        auto source = make_source(std::move(made->mesh), std::move(report), service.memory());
         if (Status set = (*found)->replace_source(*before, source); !set) return set.error();
         (*found)->touch();
         return FeaturesRemoved{*std::move(made), std::move(source)};

@@ -43,14 +43,8 @@ Expected<PickedMesh> PickedMesh::pick(const SessionSnapshot& session, const Mesh
     Expected<SessionSnapshot::RepresentationPointer> found = find_representation(session, ref.representation);
     if (!found) return found.error();
     picked.representation_ = *found;
-    picked.level_ = picked.representation_->level_for(ref.faces);
+    picked.faces_ = ref.faces == 0 ? (*found)->figures().faces : ref.faces;
     return picked;
-}
-
-MeshRef PickedMesh::ref() const { return {upload_ ? std::string() : representation_->id(), faces()}; }
-
-std::uint32_t PickedMesh::faces() const {
-    return upload_ ? upload_->mesh->face_count() : representation_->mrr().faces_at(level_);
 }
 
 Status PickedMesh::require_accepted() const {
@@ -58,8 +52,23 @@ Status PickedMesh::require_accepted() const {
     return Done{};
 }
 
-std::shared_ptr<const TriangleMesh> PickedMesh::mesh() const { return upload_ ? upload_->mesh : representation_->mesh(level_); }
+Expected<OpenedMesh> PickedMesh::open() const { return upload_ ? open_upload() : open_level(); }
 
-Quality PickedMesh::quality() const { return upload_ ? upload_->report.quality : representation_->quality(level_); }
+Expected<OpenedMesh> PickedMesh::open_upload() const {
+    Expected<std::shared_ptr<const TriangleMesh>> mesh = upload_->mesh->get();
+    if (!mesh) return mesh.error();
+    return OpenedMesh{{std::string(), (*mesh)->face_count()}, *std::move(mesh), upload_->report.quality};
+}
+
+Expected<OpenedMesh> PickedMesh::open_level() const {
+    const Expected<std::shared_ptr<const Levels>> levels = representation_->levels().get();
+    if (!levels) return levels.error();
+    const MultiresMesh& mrr = (*levels)->mrr();
+    const std::size_t level = mrr.level_for(faces_);
+    const MethodFigures& figures = representation_->figures();
+    OpenedMesh opened{{representation_->id(), mrr.faces_at(level)}, (*levels)->mesh(level), std::nullopt};
+    if (opened.ref.faces == figures.faces) opened.known_quality = figures.quality;
+    return opened;
+}
 
 }  // namespace vsplit::service

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "service/representation.h"
 #include "service/source_mesh.h"
 #include "vsplit/base/expected.h"
+#include "vsplit/quality/mesh_quality.h"
 
 namespace vsplit::service {
 
@@ -24,6 +26,7 @@ struct SessionSnapshot {
     std::chrono::system_clock::time_point expire_time;
     std::shared_ptr<const SourceMesh> source;            ///< null before an upload
     std::vector<RepresentationPointer> representations;  ///< oldest first
+    std::vector<MethodRequest> interrupted;              ///< methods that the end of a server cut off, and nobody asked for since
 };
 
 /// \return NOT_FOUND listing the ids there are.
@@ -33,30 +36,35 @@ struct SessionSnapshot {
 /// \return NOT_READY when the session has none.
 [[nodiscard]] Expected<SessionSnapshot::RepresentationPointer> newest_representation(const SessionSnapshot& session);
 
+/// A mesh of a session, built.
+struct OpenedMesh {
+    MeshRef ref;  ///< which representation, and the resolution that exists
+    std::shared_ptr<const TriangleMesh> mesh;
+    std::optional<Quality> known_quality;
+
+    /// Heavy unless it is known: O(faces log faces).
+    [[nodiscard]] Quality quality() const { return known_quality ? *known_quality : measure_quality(*mesh); }
+};
+
 /// One mesh of a session, found but not yet built.
 class PickedMesh {
 public:
-    /// \return NOT_READY before an upload, NOT_FOUND for an unknown representation.
+    /// \return NOT_READY before an upload, NOT_FOUND for an unknown representation. O(representations).
     [[nodiscard]] static Expected<PickedMesh> pick(const SessionSnapshot& session, const MeshRef& ref);
-
-    /// The mesh that was picked: which representation, and the resolution that exists. O(1).
-    [[nodiscard]] MeshRef ref() const;
-
-    [[nodiscard]] std::uint32_t faces() const;
 
     /// Whether the methods take it. \return what `require_manifold` returns. O(1).
     [[nodiscard]] Status require_accepted() const;
 
-    /// Heavy unless it is the upload or cached: O(level).
-    [[nodiscard]] std::shared_ptr<const TriangleMesh> mesh() const;
-
-    /// Heavy unless it is the upload: O(level + faces log faces).
-    [[nodiscard]] Quality quality() const;
+    /// Heavy unless it is in memory: O(records up to it). \return what Kept::get returns.
+    [[nodiscard]] Expected<OpenedMesh> open() const;
 
 private:
+    [[nodiscard]] Expected<OpenedMesh> open_upload() const;
+    [[nodiscard]] Expected<OpenedMesh> open_level() const;
+
     std::shared_ptr<const SourceMesh> upload_;  // or
     SessionSnapshot::RepresentationPointer representation_;
-    std::size_t level_ = 0;
+    std::uint32_t faces_ = 0;  // asked for
 };
 
 }  // namespace vsplit::service

@@ -29,6 +29,21 @@ Expected<std::uint64_t> parse_token(std::string_view token) {
 
 }  // namespace
 
+SessionStore::SessionStore(const SessionHost& host) : host_(host) {}
+
+Status SessionStore::restore() {
+    Expected<Restored> restored = host_.archive.restore(host_.memory);
+    if (!restored) return restored.error();
+    began_ = Session::Clock::now() - restored->now;
+    for (SessionRecord& record : restored->sessions) {
+        ++by_owner_[record.owner];
+        ++count_;
+        last_number_ = std::max(last_number_, record.number);
+        publish(std::make_shared<Session>(std::move(record), began_, host_));
+    }
+    return Done{};
+}
+
 Status SessionStore::require_room(std::string_view owner) {
     remove_expired();
     const std::lock_guard lock(mutex_);
@@ -48,31 +63,61 @@ std::size_t SessionStore::waiting_jobs() const {
 }
 
 Status SessionStore::require_room_locked(std::string_view owner) const {
+    const Limits& limits = host_.options.limits;
     const auto held = by_owner_.find(owner);
-    if (!owner.empty() && held != by_owner_.end() && held->second >= options_.limits.sessions_by_client) {
+    if (!owner.empty() && held != by_owner_.end() && held->second >= limits.sessions_by_client) {
         return Error{
             Cause::kLimitExceeded,
             "there are " + std::to_string(held->second) +
                 " sessions of this token, the server's limit max_sessions_by_client; delete one, or wait until one expires",
             "", kRetryAfter};
     }
-    if (sessions_.size() < options_.limits.sessions) return Done{};
+    if (count_ < limits.sessions) return Done{};
     return Error{Cause::kLimitExceeded,
-                 "the server holds " + std::to_string(sessions_.size()) +
+                 "the server holds " + std::to_string(count_) +
                      " sessions, its limit max_sessions; delete one, or wait until one expires",
                  "", kRetryAfter};
+}
+
+std::chrono::milliseconds SessionStore::service_time(Session::Clock::time_point time) const {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(time - began_);
+}
+
+/// Counts a session that is on its way into the archive. Returns its number.
+Expected<std::uint64_t> SessionStore::begin_session(const std::string& owner) {
+    const std::lock_guard lock(mutex_);
+    if (Status room = require_room_locked(owner); !room) return room.error();
+    ++by_owner_[owner];
+    ++count_;
+    return ++last_number_;
+}
+
+void SessionStore::publish(const std::shared_ptr<Session>& session) {
+    const std::lock_guard lock(mutex_);
+    numbers_.emplace(session->id(), session->number());
+    sessions_.emplace(session->number(), session);
 }
 
 Expected<std::shared_ptr<Session>> SessionStore::create(std::shared_ptr<const SourceMesh> source, const std::string& owner) {
     remove_expired();
     Expected<std::string> id = random_id();
     if (!id) return id.error();
-    const std::lock_guard lock(mutex_);
-    if (Status room = require_room_locked(owner); !room) return room.error();
-    auto session = std::make_shared<Session>(*id, ++last_number_, std::move(source), options_, workers_, owner);
-    ++by_owner_[owner];
-    numbers_.emplace(*id, last_number_);
-    sessions_.emplace(last_number_, session);
+    const Expected<std::uint64_t> number = begin_session(owner);
+    if (!number) return number.error();
+    SessionRecord record;
+    record.number = *number;
+    record.id = *std::move(id);
+    record.owner = owner;
+    record.create_time = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+    record.expires = service_time(Session::Clock::now() + host_.options.session_ttl);
+    record.source = std::move(source);
+    if (Status kept = host_.archive.add(record); !kept) {
+        const std::lock_guard lock(mutex_);
+        forget_owner(owner);
+        return kept.error();
+    }
+    auto session = std::make_shared<Session>(std::move(record), began_, host_);
+    publish(session);
     return session;
 }
 
@@ -87,19 +132,17 @@ Expected<std::shared_ptr<Session>> SessionStore::find(std::string_view id, std::
 }
 
 Status SessionStore::remove(std::string_view id, std::string_view owner) {
-    std::shared_ptr<Session> removed;
+    const Expected<std::shared_ptr<Session>> found = find(id, owner);
+    if (!found) return found.error();
+    const std::shared_ptr<Session>& session = *found;
+    if (Status removed = host_.archive.remove({session->number()}); !removed) return removed;
     {
         const std::lock_guard lock(mutex_);
-        const auto number = numbers_.find(std::string(id));
-        if (number == numbers_.end()) return unknown_session(id);
-        const auto entry = sessions_.find(number->second);
-        if (entry->second->owner() != owner) return unknown_session(id);
-        forget_owner_of(*entry->second);
-        removed = std::move(entry->second);
-        sessions_.erase(entry);
-        numbers_.erase(number);
+        if (sessions_.erase(session->number()) == 0) return unknown_session(id);  // another caller was quicker
+        numbers_.erase(session->id());
+        forget_owner(session->owner());
     }
-    removed->close({Cause::kCancelled, "the session was deleted", "session"});
+    session->close({Cause::kCancelled, "the session was deleted", "session"});
     return Done{};
 }
 
@@ -124,7 +167,14 @@ Expected<SessionPage> SessionStore::list(std::uint32_t page_size, std::string_vi
 
 std::size_t SessionStore::remove_expired() {
     const std::vector<std::shared_ptr<Session>> taken = take_expired();
-    for (const std::shared_ptr<Session>& session : taken) session->close({Cause::kCancelled, "the session expired", "session"});
+    if (taken.empty()) return 0;
+    std::vector<std::uint64_t> numbers;
+    for (const std::shared_ptr<Session>& session : taken) {
+        session->close({Cause::kCancelled, "the session expired", "session"});
+        numbers.push_back(session->number());
+    }
+    // Where this fails they come back with the next start, and expire then.
+    static_cast<void>(host_.archive.remove(numbers));
     return taken.size();
 }
 
@@ -137,17 +187,29 @@ std::vector<std::shared_ptr<Session>> SessionStore::take_expired() {
             continue;
         }
         numbers_.erase(at->second->id());
-        forget_owner_of(*at->second);
+        forget_owner(at->second->owner());
         taken.push_back(std::move(at->second));
         at = sessions_.erase(at);
     }
     return taken;
 }
 
+Status SessionStore::note_time() {
+    std::vector<std::pair<std::uint64_t, std::chrono::milliseconds>> expire;
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [number, session] : sessions_) {
+            if (const auto time = session->take_expiry()) expire.emplace_back(number, service_time(*time));
+        }
+    }
+    return host_.archive.note_time(service_time(Session::Clock::now()), expire);
+}
+
 // Lock held.
-void SessionStore::forget_owner_of(const Session& session) {
-    const auto held = by_owner_.find(session.owner());
+void SessionStore::forget_owner(const std::string& owner) {
+    const auto held = by_owner_.find(owner);
     if (--held->second == 0) by_owner_.erase(held);
+    --count_;
 }
 
 void SessionStore::clear(const Error& why) {
@@ -157,6 +219,7 @@ void SessionStore::clear(const Error& why) {
         removed.swap(sessions_);
         numbers_.clear();
         by_owner_.clear();
+        count_ = 0;
     }
     for (const auto& [number, session] : removed) session->close(why);
 }

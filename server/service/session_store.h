@@ -20,25 +20,29 @@ struct SessionPage {
     std::string next_page_token;  ///< empty on the last page
 };
 
-/// The sessions of a server, in memory. Thread-safe.
+/// The sessions of a server, as its archive has them. Thread-safe. Whatever changes which there are may wait for the archive.
 class SessionStore {
 public:
     static constexpr std::uint32_t kDefaultPage = 100;
     static constexpr std::uint32_t kLargestPage = 1000;
 
-    SessionStore(const ServiceOptions& options, WorkerPool& workers) : options_(options), workers_(workers) {}
+    /// Starts empty. `host` outlives this.
+    explicit SessionStore(const SessionHost& host);
+
+    /// Takes over what the archive holds. To be called once, before anything else. \return what SessionArchive::restore returns.
+    [[nodiscard]] Status restore();
 
     /// Whether `create` has room. \return LIMIT_EXCEEDED.
     [[nodiscard]] Status require_room(std::string_view owner = {});
 
-    /// \return LIMIT_EXCEEDED. `source` may be null.
+    /// `source` may be null. \return LIMIT_EXCEEDED; what SessionArchive::add returns.
     [[nodiscard]] Expected<std::shared_ptr<Session>> create(std::shared_ptr<const SourceMesh> source,
                                                             const std::string& owner = {});
 
     /// A use of the session: it lives its full time again. \return NOT_FOUND, also for a session of another owner.
     [[nodiscard]] Expected<std::shared_ptr<Session>> find(std::string_view id, std::string_view owner = {});
 
-    /// Closes and forgets the session. \return as `find`.
+    /// Closes and forgets the session. \return as `find`; what SessionArchive::remove returns, and it is there still.
     [[nodiscard]] Status remove(std::string_view id, std::string_view owner = {});
 
     /// `page_size` 0 means kDefaultPage. Looking at the list is no use of the sessions in it.
@@ -54,22 +58,29 @@ public:
     /// Closes and forgets those nobody has used for their time. Returns how many. O(sessions).
     std::size_t remove_expired();
 
-    /// Closes and forgets all.
+    /// Tells the archive what time it is and which sessions were used. \return what it returns. O(sessions).
+    [[nodiscard]] Status note_time();
+
+    /// Closes all; the archive keeps them.
     void clear(const Error& why);
 
 private:
     using Sessions = std::map<std::uint64_t, std::shared_ptr<Session>>;
 
     [[nodiscard]] Status require_room_locked(std::string_view owner) const;
+    [[nodiscard]] Expected<std::uint64_t> begin_session(const std::string& owner);
+    void publish(const std::shared_ptr<Session>& session);
+    void forget_owner(const std::string& owner);
+    [[nodiscard]] std::chrono::milliseconds service_time(Session::Clock::time_point time) const;
     [[nodiscard]] std::vector<std::shared_ptr<Session>> take_expired();
-    void forget_owner_of(const Session& session);
 
-    const ServiceOptions options_;
-    WorkerPool& workers_;
-    mutable std::mutex mutex_;
-    Sessions sessions_;  // by number
+    const SessionHost host_;
+    Session::Clock::time_point began_ = Session::Clock::now();  // when service time was 0
+    mutable std::mutex mutex_;                                  // not held while the archive is called
+    Sessions sessions_;                                         // by number
     std::unordered_map<std::string, std::uint64_t> numbers_;
-    std::map<std::string, std::uint32_t, std::less<>> by_owner_;  // how many sessions; none is no entry
+    std::map<std::string, std::uint32_t, std::less<>> by_owner_;  // sessions, with those on their way; none is no entry
+    std::size_t count_ = 0;                                       // sessions, with those on their way
     std::uint64_t last_number_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "service/guarded.h"
+#include "service/memory_use.h"
 #include "vsplit/io/read_mesh.h"
 #include "vsplit/mesh/weld.h"
 
@@ -15,15 +16,22 @@ Status check_settings(const MeshSettings& settings) {
     return Done{};
 }
 
+std::shared_ptr<const SourceMesh> make_source(TriangleMesh mesh, MeshReport report, MemoryBudget& budget) {
+    const std::uint64_t bytes = memory_of(mesh);
+    auto kept = Kept<TriangleMesh>::hold(std::make_shared<const TriangleMesh>(std::move(mesh)), bytes, budget);
+    return std::make_shared<const SourceMesh>(SourceMesh{std::move(kept), std::move(report)});
+}
+
 Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byte> bytes, const MeshSettings& settings,
-                                                        const Limits& limits) {
+                                                        const Limits& limits, MemoryBudget& budget) {
     return guarded([&]() -> Expected<std::shared_ptr<const SourceMesh>> {
+        const Expected<MemoryBudget::Share> room = budget.reserve(memory_to_read(bytes.size()), "reading this mesh");
+        if (!room) return room.error();
         Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces});
         if (!read) return read.error();
         Expected<MeshReport> report = inspect_source(read->mesh, read->weld, settings.repair);
         if (!report) return report.error();
-        return std::make_shared<const SourceMesh>(
-            SourceMesh{std::make_shared<const TriangleMesh>(std::move(read->mesh)), *std::move(report)});
+        return make_source(std::move(read->mesh), *std::move(report), budget);
     });
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "service/kept.h"
 #include "service/limits.h"
 #include "vsplit/base/expected.h"
 #include "vsplit/io/mesh_format.h"
@@ -24,15 +25,20 @@ struct MeshSettings {
 /// Whether `settings` can be obeyed, before any byte is there. \return INVALID_OPTION. O(1).
 [[nodiscard]] Status check_settings(const MeshSettings& settings);
 
-/// What a session's methods begin with: a mesh that could be read, open and non-manifold ones included. Never changes.
+/// What a session's methods begin with: a mesh that could be read, open and non-manifold ones included. Never changes; the mesh is
+/// in memory while there is room.
 struct SourceMesh {
-    std::shared_ptr<const TriangleMesh> mesh;
+    std::shared_ptr<Kept<TriangleMesh>> mesh;
     MeshReport report;
 };
+
+/// With a mesh that is in memory and nowhere else. `budget` outlives it.
+[[nodiscard]] std::shared_ptr<const SourceMesh> make_source(TriangleMesh mesh, MeshReport report, MemoryBudget& budget);
 
 /// Reads, welds, repairs and inspects. Heavy: for a worker, not for a thread that others wait for.
 /// \return what `read_mesh` returns; LIMIT_EXCEEDED names the server's limit.
 [[nodiscard]] Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byte> bytes,
-                                                                      const MeshSettings& settings, const Limits& limits);
+                                                                      const MeshSettings& settings, const Limits& limits,
+                                                                      MemoryBudget& budget);
 
 }  // namespace vsplit::service

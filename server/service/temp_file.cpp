@@ -18,6 +18,12 @@ Error file_error(const char* what) {
     return {Cause::kFileAccess, std::string(what) + ": " + std::generic_category().message(errno), ""};
 }
 
+std::filesystem::path usual_directory() {
+    std::error_code failed;
+    const std::filesystem::path directory = std::filesystem::temp_directory_path(failed);
+    return failed ? "/tmp" : directory;
+}
+
 // For file systems that know no O_TMPFILE.
 int create_and_unlink(const std::filesystem::path& directory) {
     std::string name = (directory / "vsplit-XXXXXX").string();
@@ -41,10 +47,8 @@ FileMapping& FileMapping::operator=(FileMapping&& other) noexcept {
     return *this;
 }
 
-Expected<TempFile> TempFile::create() {
-    std::error_code failed;
-    std::filesystem::path directory = std::filesystem::temp_directory_path(failed);
-    if (failed) directory = "/tmp";
+Expected<TempFile> TempFile::create(const std::filesystem::path& wanted) {
+    const std::filesystem::path directory = wanted.empty() ? usual_directory() : wanted;
     int descriptor = open(directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (descriptor < 0) descriptor = create_and_unlink(directory);
     if (descriptor < 0) return file_error("cannot make a temporary file");

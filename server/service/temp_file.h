@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 
 #include "vsplit/base/expected.h"
@@ -24,11 +25,11 @@ private:
     std::size_t size_ = 0;
 };
 
-/// A file without a name, in $TMPDIR or /tmp: it is gone with the process, however that ends.
+/// A file without a name: it is gone with the process, however that ends.
 class TempFile {
 public:
-    /// \return FILE_ACCESS.
-    [[nodiscard]] static Expected<TempFile> create();
+    /// In `directory`; where that is empty, in $TMPDIR or /tmp. \return FILE_ACCESS.
+    [[nodiscard]] static Expected<TempFile> create(const std::filesystem::path& directory = {});
 
     ~TempFile();
     TempFile(TempFile&& other) noexcept;

@@ -15,16 +15,19 @@ Error too_large(std::uint64_t bytes, const Limits& limits, const char* field) {
 
 }  // namespace
 
-Upload::Upload(std::shared_ptr<Session> session, const UploadSettings& settings, const Limits& limits, TempFile file)
-    : session_(std::move(session)), settings_(settings), limits_(limits), file_(std::move(file)) {}
+Upload::Upload(std::shared_ptr<Session> session, const UploadSettings& settings, const Limits& limits, MemoryBudget& memory,
+               TempFile file)
+    : session_(std::move(session)), settings_(settings), limits_(limits), memory_(&memory), file_(std::move(file)) {}
 
-Expected<Upload> Upload::begin(std::shared_ptr<Session> session, const UploadSettings& settings, const Limits& limits) {
+Expected<Upload> Upload::begin(std::shared_ptr<Session> session, const UploadSettings& settings, const ServiceOptions& options,
+                               MemoryBudget& memory) {
+    const Limits& limits = options.limits;
     if (settings.size > limits.upload_bytes) return too_large(*settings.size, limits, "size");
     if (Status ok = check_settings(settings.mesh); !ok) return ok.error();
     if (Status idle = session->require_idle(); !idle) return idle.error();
-    Expected<TempFile> file = TempFile::create();
+    Expected<TempFile> file = TempFile::create(options.temp_directory);
     if (!file) return file.error();
-    return Upload(std::move(session), settings, limits, *std::move(file));
+    return Upload(std::move(session), settings, limits, memory, *std::move(file));
 }
 
 Status Upload::append(std::uint64_t offset, std::span<const std::byte> bytes) {
@@ -55,7 +58,7 @@ Expected<SessionSnapshot> Upload::commit(const std::function<bool()>& still_want
     }
     const Expected<FileMapping> mapped = file_.map();
     if (!mapped) return mapped.error();
-    Expected<std::shared_ptr<const SourceMesh>> source = read_source(mapped->bytes(), settings_.mesh, limits_);
+    Expected<std::shared_ptr<const SourceMesh>> source = read_source(mapped->bytes(), settings_.mesh, limits_, *memory_);
     if (!source) return source.error();
     if (!still_wanted()) return Error{Cause::kCancelled, "the upload was cut off; the session is as it was", ""};
     if (Status set = session_->set_source(*source); !set) return set.error();

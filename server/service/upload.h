@@ -25,7 +25,7 @@ class Upload {
 public:
     /// \return LIMIT_EXCEEDED for a declared size over the limit, INVALID_OPTION (weld), BUSY, NOT_FOUND, FILE_ACCESS.
     [[nodiscard]] static Expected<Upload> begin(std::shared_ptr<Session> session, const UploadSettings& settings,
-                                                const Limits& limits);
+                                                const ServiceOptions& options, MemoryBudget& memory);
 
     /// Takes the next bytes; writes to the disk. \return OUT_OF_ORDER when `offset` is not the number of bytes taken so far;
     /// LIMIT_EXCEEDED; MALFORMED_INPUT for more than the declared size; FILE_ACCESS.
@@ -36,11 +36,13 @@ public:
     [[nodiscard]] Expected<SessionSnapshot> commit(const std::function<bool()>& still_wanted) const;
 
 private:
-    Upload(std::shared_ptr<Session> session, const UploadSettings& settings, const Limits& limits, TempFile file);
+    Upload(std::shared_ptr<Session> session, const UploadSettings& settings, const Limits& limits, MemoryBudget& memory,
+           TempFile file);
 
     std::shared_ptr<Session> session_;
     UploadSettings settings_;
     Limits limits_;
+    MemoryBudget* memory_;
     TempFile file_;
 };
 

@@ -20,11 +20,15 @@ MethodResult a_result(const MethodOptions& options) {
     return result;
 }
 
+v1::Representation described(const char* id, const char* source, std::uint32_t faces, const MethodResult& result) {
+    return describe(id, source, faces, result, extent_of(result.mrr));
+}
+
 TEST(RepresentationTest, DescribesAnImprovement) {
     ImproveOptions options;
     options.tolerance = 0.5;
     options.mode = Mode::kStrict;
-    const v1::Representation made = describe("r1", "r0", 99, a_result(options));
+    const v1::Representation made = described("r1", "r0", 99, a_result(options));
     EXPECT_EQ(made.id(), "r1");
     EXPECT_EQ(made.method(), v1::IMPROVE);
     EXPECT_EQ(made.source().representation(), "r0");
@@ -46,7 +50,7 @@ TEST(RepresentationTest, DescribesAnImprovement) {
 TEST(RepresentationTest, DescribesWhatControlCouldNotMend) {
     MethodResult result = a_result(ControlOptions());
     result.violations.push_back({"min_stretch", 0.2, 0.1, 3, {1, 2, 3}, "no collapse helps"});
-    const v1::Representation made = describe("r2", "", 12, result);
+    const v1::Representation made = described("r2", "", 12, result);
     EXPECT_EQ(made.method(), v1::CONTROL);
     EXPECT_FALSE(made.bounds_satisfied());
     ASSERT_EQ(made.violations_size(), 1);
@@ -58,7 +62,7 @@ TEST(RepresentationTest, TellsWhatForcesSliversAtItsOwnResolution) {
     result.quality.deviation_max = 0.25;
     result.quality.crease_deviation_max = 0.125;
     result.slivers.push_back({SliverCause::kNarrowStrip, 83, 0.012, 0.03, {4, 5}, "83 faces lie between creases"});
-    v1::Representation made = describe("r5", "", 12, result);
+    v1::Representation made = described("r5", "", 12, result);
     EXPECT_EQ(made.quality().crease_deviation_max(), 0.125);
     ASSERT_EQ(made.slivers_size(), 1);
     EXPECT_EQ(made.slivers(0).cause(), "NARROW_STRIP");
@@ -80,7 +84,7 @@ TEST(RepresentationTest, LeavesOutWhatMayBeAsLargeAsTheMesh) {
     options.regions = {1, 1, 2, 2};
     options.sizing.emplace().field = {1, 2, 3, 4};
     options.sizing->chord_error = 0.5;
-    const v1::Representation made = describe("r4", "", 4, a_result(options));
+    const v1::Representation made = described("r4", "", 4, a_result(options));
     EXPECT_EQ(made.improve_options().feature_detection(), v1::NORMAL_VOTING);
     EXPECT_EQ(made.improve_options().marked_edges_size(), 0);
     EXPECT_EQ(made.improve_options().regions_size(), 0);
@@ -93,7 +97,7 @@ TEST(RepresentationTest, FollowsToAnotherResolution) {
     options.min_stretch = 0.5;
     MethodResult result = a_result(options);
     result.violations.push_back({"min_stretch", 0.5, 0.4, 1, {0}, "the method's reason"});
-    v1::Representation made = describe("r3", "", 12, result);
+    v1::Representation made = described("r3", "", 12, result);
 
     describe_resolution(test::icosphere(1), made);
     EXPECT_EQ(made.faces(), 80U);
@@ -101,7 +105,7 @@ TEST(RepresentationTest, FollowsToAnotherResolution) {
     EXPECT_TRUE(made.bounds_satisfied());
     EXPECT_TRUE(made.violations().empty());
 
-    v1::Representation again = describe("r3", "", 12, result);
+    v1::Representation again = described("r3", "", 12, result);
     const TriangleMesh slivers = test::sliver_cylinder(16, 10);
     describe_resolution(slivers, again);
     EXPECT_FALSE(again.bounds_satisfied());

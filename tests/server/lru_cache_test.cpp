@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,10 +13,9 @@ namespace {
 class LruCacheTest : public ::testing::Test {
 protected:
     std::string get(std::size_t key) {
-        return *cache_.get_or_make(key, [this, key] {
-            ++made_;
-            return std::to_string(key);
-        });
+        if (const auto found = cache_.find(key)) return *found;
+        ++made_;
+        return *cache_.insert(key, std::make_shared<const std::string>(std::to_string(key)));
     }
 
     LruCache<std::string> cache_{2};
@@ -38,9 +38,14 @@ TEST_F(LruCacheTest, DropsWhatWasUsedLongestAgo) {
 }
 
 TEST_F(LruCacheTest, AValueOutlivesItsPlace) {
-    const auto held = cache_.get_or_make(1, [] { return std::string("one"); });
+    const auto held = cache_.insert(1, std::make_shared<const std::string>("one"));
     for (const std::size_t key : {2, 3, 4}) EXPECT_EQ(get(key), std::to_string(key));
     EXPECT_EQ(*held, "one");
+}
+
+TEST_F(LruCacheTest, TheFirstValueOfAKeyStays) {
+    const auto first = cache_.insert(1, std::make_shared<const std::string>("first"));
+    EXPECT_EQ(cache_.insert(1, std::make_shared<const std::string>("second")), first);
 }
 
 TEST(LruCacheThreadsTest, ThreadsGetTheValueOfTheirKey) {
@@ -50,7 +55,9 @@ TEST(LruCacheThreadsTest, ThreadsGetTheValueOfTheirKey) {
         threads.emplace_back([&cache, t] {
             for (std::size_t i = 0; i < 1000; ++i) {
                 const std::size_t key = (i * 7 + t) % 6;
-                EXPECT_EQ(*cache.get_or_make(key, [key] { return key * 100; }), key * 100);
+                auto value = cache.find(key);
+                if (!value) value = cache.insert(key, std::make_shared<const std::size_t>(key * 100));
+                EXPECT_EQ(*value, key * 100);
             }
         });
     }

@@ -85,14 +85,14 @@ private:
         for (std::size_t at = 0; at < file.size(); at += 3000) ASSERT_TRUE(upload->append(at, bytes_of(file.substr(at, 3000))));
         const Expected<SessionSnapshot> session = upload->commit([] { return true; });
         ASSERT_TRUE(session) << session.error().message;
-        EXPECT_EQ(*session->source->mesh, mesh_);
+        EXPECT_EQ(**session->source->mesh->get(), mesh_);
     }
 
     void improve() {
         Running running(service_, id_, small_improve());
         const JobOutcome outcome = running.wait();
         ASSERT_TRUE(outcome) << outcome.error().message;
-        EXPECT_EQ((*outcome)->source().faces, mesh_.face_count());
+        EXPECT_EQ(outcome->representation->source().faces, mesh_.face_count());
         EXPECT_TRUE(service_.sessions().find(id_).operator*()->require_idle()) << "who hears of the end finds the session free";
     }
 
@@ -100,15 +100,19 @@ private:
         const Expected<SessionSnapshot> session = service_.snapshot(id_);
         ASSERT_TRUE(session);
         for (const std::uint32_t faces : {1U, 100U, 300U, 100U, 1'000'000U}) {
-            const Expected<ResolutionPlan> plan = plan_resolution(*session, {"r1", 0, faces, 0});
+            const auto found = find_representation(*session, "r1");
+            ASSERT_TRUE(found);
+            const Expected<ResolutionPlan> plan = plan_resolution(*found, {"r1", 0, faces, 0});
             ASSERT_TRUE(plan);
-            EXPECT_EQ(*plan->representation->mesh(plan->level), mesh_at(plan->representation->mrr(), plan->level));
+            EXPECT_EQ(*plan->levels->mesh(plan->level), mesh_at(plan->levels->mrr(), plan->level));
         }
     }
 
     void cancel() {
-        Running first(service_, id_, small_improve());
-        Running second(service_, id_, small_improve());
+        MethodRequest other = small_improve();  // what was made before would be found
+        std::get<ImproveOptions>(other.options).feature_weight = 3;
+        Running first(service_, id_, other);
+        Running second(service_, id_, other);
         second.cancel();
         first.cancel();
         for (Running* running : {&first, &second}) {
@@ -130,9 +134,13 @@ void look_around(MeshingService& service, const std::atomic<bool>& stop) {
         for (const SessionSnapshot& session : page->sessions) {
             const Expected<PickedMesh> mesh = PickedMesh::pick(session, {});
             ASSERT_TRUE(mesh);
-            EXPECT_EQ(mesh->quality().faces, mesh->faces());
+            const Expected<OpenedMesh> opened = mesh->open();
+            ASSERT_TRUE(opened);
+            EXPECT_EQ(opened->quality().faces, opened->ref.faces);
             for (const auto& representation : session.representations) {
-                EXPECT_EQ(representation->mesh(0)->face_count(), representation->mrr().faces_min());
+                const auto levels = representation->levels().get();
+                ASSERT_TRUE(levels);
+                EXPECT_EQ((*levels)->mesh(0)->face_count(), (*levels)->mrr().faces_min());
             }
         }
     }

@@ -95,7 +95,7 @@ TEST_F(MethodRpcsTest, ImproveIsTheEnginesOwn) {
     const ImproveOptions options = *wire::from_proto(request.options());
     const Expected<MethodResult> own = vsplit::improve(mesh_, options, {}, ExecutionContext(nullptr, 1));
     ASSERT_TRUE(own) << own.error().message;
-    v1::Representation expected = wire::describe("r1", "", mesh_.face_count(), *own);
+    v1::Representation expected = wire::describe("r1", "", mesh_.face_count(), *own, extent_of(own->mrr));
     *expected.mutable_elapsed() = received.representation->elapsed();  // the one thing that differs
     EXPECT_EQ(received.representation->DebugString(), expected.DebugString());
     EXPECT_EQ(received.mesh->mesh(), mesh_at(own->mrr, own->mrr.level_for(own->faces)));

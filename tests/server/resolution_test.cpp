@@ -12,25 +12,38 @@ namespace {
 
 using ::testing::HasSubstr;
 
+std::shared_ptr<const Representation> representation_of(const std::string& id, const MultiresMesh& mrr, std::uint32_t faces) {
+    static MemoryBudget budget(0);
+    MethodFigures figures;
+    figures.faces = faces;
+    auto levels = Kept<Levels>::hold(std::make_shared<const Levels>(mrr, budget), 0, budget);
+    return std::make_shared<const Representation>(id, MethodRequest{}, figures, extent_of(mrr), levels);
+}
+
 // A session with representations of 4 to 24 faces, made for 14: before each of ten splits a flip and a move. What they are says
 // nothing: a plan does not look at it. Level s has 3s records before it.
 SessionSnapshot session_with(int representations) {
     SessionSnapshot session;
-    MethodResult result;
-    result.mrr.base = test::tetrahedron();
+    MultiresMesh mrr;
+    mrr.base = test::tetrahedron();
     for (int split = 0; split < 10; ++split) {
         for (const Record& record : {Record(EdgeFlip{}), Record(VertexMove{}), Record(VertexSplit{})})
-            result.mrr.records.push_back(record);
+            mrr.records.push_back(record);
     }
-    result.faces = 14;
     for (int i = 1; i <= representations; ++i) {
-        session.representations.push_back(std::make_shared<const Representation>('r' + std::to_string(i), MeshRef{}, result));
+        session.representations.push_back(representation_of('r' + std::to_string(i), mrr, 14));
     }
     return session;
 }
 
+Expected<ResolutionPlan> plan_in(const SessionSnapshot& session, const ResolutionRequest& request) {
+    const auto found = find_requested(session, request);
+    if (!found) return found.error();
+    return plan_resolution(*found, request);
+}
+
 ResolutionPlan plan(std::uint32_t held, std::uint32_t wanted, std::uint32_t resume_from = 0) {
-    const Expected<ResolutionPlan> made = plan_resolution(session_with(1), {"r1", held, wanted, resume_from});
+    const Expected<ResolutionPlan> made = plan_in(session_with(1), {"r1", held, wanted, resume_from});
     EXPECT_TRUE(made) << made.error().message;
     return made ? *made : ResolutionPlan{};
 }
@@ -74,7 +87,7 @@ TEST(ResolutionTest, ResumesWhereAStreamBrokeOff) {
 }
 
 TEST(ResolutionTest, RefusesToResumeBeyondTheLastRecord) {
-    const Expected<ResolutionPlan> made = plan_resolution(session_with(1), {"", 0, 14, 31});
+    const Expected<ResolutionPlan> made = plan_in(session_with(1), {"", 0, 14, 31});
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().cause, Cause::kInvalidOption);
     EXPECT_EQ(made.error().field, "resume_from");
@@ -82,7 +95,7 @@ TEST(ResolutionTest, RefusesToResumeBeyondTheLastRecord) {
 
 TEST(ResolutionTest, NamesTheNearestWhenWhatIsHeldIsNoLevel) {
     for (const auto& [held, nearest] : {std::pair{9U, "8"}, std::pair{3U, "4"}, std::pair{26U, "24"}}) {
-        const Expected<ResolutionPlan> made = plan_resolution(session_with(1), {"", held, 14, 0});
+        const Expected<ResolutionPlan> made = plan_in(session_with(1), {"", held, 14, 0});
         ASSERT_FALSE(made) << held;
         EXPECT_EQ(made.error().cause, Cause::kInvalidOption);
         EXPECT_EQ(made.error().field, "faces_held");
@@ -92,26 +105,26 @@ TEST(ResolutionTest, NamesTheNearestWhenWhatIsHeldIsNoLevel) {
 
 TEST(ResolutionTest, TakesTheNewestUnlessToldOtherwise) {
     const SessionSnapshot session = session_with(2);
-    EXPECT_EQ(plan_resolution(session, {"", 0, 14, 0})->representation->id(), "r2");
-    EXPECT_EQ(plan_resolution(session, {"r1", 0, 14, 0})->representation->id(), "r1");
-    EXPECT_EQ(plan_resolution(session, {"r3", 0, 14, 0}).error().cause, Cause::kNotFound);
-    EXPECT_EQ(plan_resolution(session_with(0), {"", 0, 14, 0}).error().cause, Cause::kNotReady);
+    EXPECT_EQ(plan_in(session, {"", 0, 14, 0})->representation->id(), "r2");
+    EXPECT_EQ(plan_in(session, {"r1", 0, 14, 0})->representation->id(), "r1");
+    EXPECT_EQ(plan_in(session, {"r3", 0, 14, 0}).error().cause, Cause::kNotFound);
+    EXPECT_EQ(plan_in(session_with(0), {"", 0, 14, 0}).error().cause, Cause::kNotReady);
 }
 
 TEST(ResolutionTest, OpenMeshesHaveOddNumbersOfFacesToo) {
-    MethodResult result;
-    result.mrr.base = test::tetrahedron();
-    result.mrr.ghosts = 1;
-    result.mrr.ghost_faces = 3;
-    for (int split = 0; split < 4; ++split) result.mrr.records.push_back(VertexSplit{});
-    result.mrr.border_splits = {0, 2};
+    MultiresMesh mrr;
+    mrr.base = test::tetrahedron();
+    mrr.ghosts = 1;
+    mrr.ghost_faces = 3;
+    for (int split = 0; split < 4; ++split) mrr.records.push_back(VertexSplit{});
+    mrr.border_splits = {0, 2};
     SessionSnapshot session;
-    session.representations.push_back(std::make_shared<const Representation>("r1", MeshRef{}, result));
-    const Expected<ResolutionPlan> made = plan_resolution(session, {"", 2, 5, 0});  // 1 2 4 5 7 faces
+    session.representations.push_back(representation_of("r1", mrr, 7));
+    const Expected<ResolutionPlan> made = plan_in(session, {"", 2, 5, 0});  // 1 2 4 5 7 faces
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_EQ(made->first_record, 1U);
     EXPECT_EQ(made->last_record, 3U);
-    const Expected<ResolutionPlan> none = plan_resolution(session, {"", 6, 7, 0});
+    const Expected<ResolutionPlan> none = plan_in(session, {"", 6, 7, 0});
     ASSERT_FALSE(none);
     EXPECT_THAT(none.error().message, HasSubstr("the nearest is 5 (it has 1 to 7 in steps of 1 or 2"));
 }

@@ -23,8 +23,19 @@ using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
 std::shared_ptr<const SourceMesh> source_of(const TriangleMesh& mesh) {
-    return std::make_shared<const SourceMesh>(SourceMesh{std::make_shared<const TriangleMesh>(mesh), inspect(mesh)});
+    static MemoryBudget budget(0);
+    return make_source(mesh, inspect(mesh), budget);
 }
+
+/// What a store needs beside its options.
+struct Host {
+    explicit Host(ServiceOptions given) : options(std::move(given)) {}
+    ServiceOptions options;
+    MemoryBudget memory{0};
+    SessionArchive archive;
+    WorkerPool workers{1};
+    SessionHost shared{options, memory, archive, workers};
+};
 
 ServiceOptions options_with(std::uint32_t sessions, milliseconds ttl) {
     ServiceOptions options;
@@ -54,9 +65,10 @@ private:
 
 class SessionStoreTest : public ::testing::Test {
 protected:
-    WorkerPool workers_{1};
-    SessionStore store_{options_with(3, std::chrono::hours(1)), workers_};
-    SessionStore short_lived_{options_with(3, milliseconds(40)), workers_};
+    Host host_{options_with(3, std::chrono::hours(1))};
+    SessionStore store_{host_.shared};
+    Host hasty_{options_with(3, milliseconds(40))};
+    SessionStore short_lived_{hasty_.shared};
 };
 
 TEST(RandomIdTest, Has128BitsAndDoesNotRepeat) {
@@ -127,13 +139,13 @@ TEST_F(SessionStoreTest, ASessionAtWorkDoesNotExpire) {
     const auto session = *short_lived_.create(nullptr);
     const auto job = std::make_shared<WaitingJob>();
     const auto queued =
-        session->enqueue([&](const SessionSnapshot&) -> Expected<std::shared_ptr<Job>> { return std::shared_ptr<Job>(job); });
+        session->enqueue({}, [&](const SessionSnapshot&) -> Expected<std::shared_ptr<Job>> { return std::shared_ptr<Job>(job); });
     ASSERT_TRUE(queued);
     std::this_thread::sleep_for(milliseconds(60));
     EXPECT_EQ(short_lived_.remove_expired(), 0U);
     EXPECT_TRUE(short_lived_.find(session->id()));
     session->cancel(job, {Cause::kCancelled, "enough", ""});
-    workers_.shutdown();
+    hasty_.workers.shutdown();
     std::this_thread::sleep_for(milliseconds(60));
     EXPECT_EQ(short_lived_.remove_expired(), 1U);
 }
@@ -142,11 +154,11 @@ TEST_F(SessionStoreTest, RemovingASessionStopsItsJobs) {
     const auto session = *store_.create(nullptr);
     const auto job = std::make_shared<WaitingJob>();
     const auto make = [&](const SessionSnapshot&) -> Expected<std::shared_ptr<Job>> { return std::shared_ptr<Job>(job); };
-    ASSERT_TRUE(session->enqueue(make));
+    ASSERT_TRUE(session->enqueue({}, make));
     ASSERT_TRUE(store_.remove(session->id()));
-    workers_.shutdown();  // returns: the job has ended
+    host_.workers.shutdown();  // returns: the job has ended
     EXPECT_EQ(job->why(), "the session was deleted");
-    const auto late = session->enqueue(make);
+    const auto late = session->enqueue({}, make);
     ASSERT_FALSE(late);
     EXPECT_EQ(late.error().cause, Cause::kNotFound);
     EXPECT_EQ(session->set_source(source_of(test::cube())).error().cause, Cause::kNotFound);
@@ -194,8 +206,8 @@ TEST_F(SessionStoreTest, ReadersKeepWhatTheyHold) {
     const SessionSnapshot before = session->snapshot();
     ASSERT_TRUE(session->set_source(source_of(test::tetrahedron())));
     ASSERT_TRUE(store_.remove(session->id()));
-    EXPECT_EQ(before.source->mesh->face_count(), 12U);
-    EXPECT_EQ(session->snapshot().source->mesh->face_count(), 4U);
+    EXPECT_EQ(before.source->report.faces, 12U);
+    EXPECT_EQ(session->snapshot().source->report.faces, 4U);
 }
 
 TEST_F(SessionStoreTest, AnUploadDropsRepresentationsAndNeverReusesAnId) {
@@ -218,17 +230,34 @@ TEST_F(SessionStoreTest, AnUploadDropsRepresentationsAndNeverReusesAnId) {
 TEST_F(SessionStoreTest, RefusesMoreRepresentationsThanItsLimit) {
     ServiceOptions options;
     options.limits.representations = 1;
-    Session session("id", 1, source_of(test::tetrahedron()), options, workers_);
+    Host host(options);
+    Session session({.number = 1, .id = "id", .expires = std::chrono::hours(1), .source = source_of(test::tetrahedron())},
+                    Session::Clock::now(), host.shared);
     MethodResult result;
     result.mrr.base = test::tetrahedron();
     ASSERT_TRUE(session.add_representation({}, result));
-    const auto refused = session.enqueue([](const SessionSnapshot&) -> Expected<std::shared_ptr<Job>> {
+    const auto refused = session.enqueue(ControlOptions(), [](const SessionSnapshot&) -> Expected<std::shared_ptr<Job>> {
         ADD_FAILURE() << "no job is made when there is no room for what it makes";
         return std::shared_ptr<Job>(std::make_shared<WaitingJob>());
     });
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().cause, Cause::kLimitExceeded);
     EXPECT_THAT(refused.error().message, HasSubstr("max_representations"));
+}
+
+TEST_F(SessionStoreTest, KnowsWhatItHasMadeBefore) {
+    const auto session = *store_.create(source_of(test::tetrahedron()));
+    MethodResult result;
+    result.mrr.base = test::tetrahedron();
+    const MethodRequest request{{"", 4}, ImproveOptions{.tolerance = 0.5}};
+    const auto made = session->add_representation(request, result);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(session->find_made(request), *made);
+    EXPECT_EQ(session->find_made({{"", 4}, ImproveOptions{.tolerance = 0.25}}), nullptr);
+    EXPECT_EQ(session->find_made({{"r1", 4}, request.options}), nullptr);
+    EXPECT_EQ(session->find_made({{"", 4}, ControlOptions{.tolerance = 0.5}}), nullptr);
+    ASSERT_TRUE(session->set_source(source_of(test::cube())));
+    EXPECT_EQ(session->find_made(request), nullptr) << "that was of another mesh";
 }
 
 TEST(SweeperTest, SweepsUntilStopped) {

@@ -24,15 +24,19 @@ bool always() { return true; }
 class UploadTest : public ::testing::Test {
 protected:
     Expected<Upload> begin(std::optional<std::uint64_t> size = std::nullopt) {
-        return Upload::begin(session_, {{}, size}, options_.limits);
+        return Upload::begin(session_, {{}, size}, options_, memory_);
     }
 
     // The session is as it was before any upload.
     bool unharmed() const { return session_->snapshot().source == nullptr && session_->require_idle(); }
 
     ServiceOptions options_;
+    MemoryBudget memory_{0};
+    SessionArchive archive_;
     WorkerPool workers_{1};
-    std::shared_ptr<Session> session_ = std::make_shared<Session>("id", 1, nullptr, options_, workers_);
+    std::shared_ptr<Session> session_ =
+        std::make_shared<Session>(SessionRecord{.number = 1, .id = "id", .expires = std::chrono::hours(1)}, Session::Clock::now(),
+                                  SessionHost{options_, memory_, archive_, workers_});
     const std::string file_ = write_mesh(test::cube(), MeshFormat::kOff);
 };
 
@@ -43,7 +47,7 @@ TEST_F(UploadTest, PutsTheMeshIntoTheSession) {
     EXPECT_TRUE(unharmed()) << "nothing changes before the commit";
     const Expected<SessionSnapshot> session = upload->commit(always);
     ASSERT_TRUE(session) << session.error().message;
-    EXPECT_EQ(*session->source->mesh, test::cube());
+    EXPECT_EQ(**session->source->mesh->get(), test::cube());
     EXPECT_TRUE(session->source->report.closed);
 }
 
@@ -99,7 +103,7 @@ TEST_F(UploadTest, ChangesNothingWhenItIsNotWantedAnyMore) {
 
 TEST_F(UploadTest, RefusesAWeldThatIsNoLengthBeforeAnyByte) {
     for (const double weld : {-1.0, std::nan(""), HUGE_VAL}) {
-        const Expected<Upload> upload = Upload::begin(session_, {{std::nullopt, weld}, std::nullopt}, options_.limits);
+        const Expected<Upload> upload = Upload::begin(session_, {{std::nullopt, weld}, std::nullopt}, options_, memory_);
         ASSERT_FALSE(upload) << weld;
         EXPECT_EQ(upload.error().cause, Cause::kInvalidOption);
         EXPECT_EQ(upload.error().field, "weld");

@@ -20,6 +20,7 @@
 #include "vsplit/mesh/weld.h"
 #include "vsplit/method/control.h"
 #include "vsplit/method/improve.h"
+#include "vsplit/mrr/mrr_extent.h"
 #include "vsplit/mrr/mrr_file.h"
 #include "vsplit/mrr/multires_mesh.h"
 #include "vsplit/mrr/progressive_mesh.h"

@@ -113,6 +113,7 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     run.extended = extended;
     run.max_deviation = used.max_deviation.value_or(0);
     run.limit = options.max_deviation;
+    run.admit = limits.admit;
     const auto faces_of = [&](const MultiresMesh& mrr) { return faces_that_keep_bounds(mrr, used, options.faces.has_value()); };
     Expected<MethodResult> tried =
         run_policy(mesh, std::move(*subdivided), run, policy_of(used, bounding_box(mesh).diagonal()), faces_of, context);

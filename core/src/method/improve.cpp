@@ -174,6 +174,7 @@ Expected<MethodResult> improve_once(const TriangleMesh& mesh, const ImproveOptio
     run.extended = extended;
     run.max_deviation = used.max_deviation.value_or(0);
     run.limit = options.max_deviation;
+    run.admit = limits.admit;
     const auto faces_of = [&](const MultiresMesh& mrr) {
         return options.faces || extended ? *used.faces : std::max(*used.faces, kFacesOverCoarsest * mrr.faces_min());
     };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "method/prepare.h"
@@ -12,6 +14,7 @@ struct MethodRun {
     bool extended = false;
     double max_deviation = 0;       ///< as used; extended mode only
     std::optional<double> limit{};  ///< max_deviation where it was given: to be kept for certain
+    std::function<Status(std::uint32_t faces)> admit{};  ///< MethodLimits::admit
 };
 
 }  // namespace vsplit

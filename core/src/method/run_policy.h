@@ -44,6 +44,9 @@ template <class Policy, class Faces>
     constexpr double kFirstShare = 0.75;
     constexpr double kLastShare = 0.15;
     double share = kFirstShare;
+    if (run.admit) {
+        if (const Status admitted = run.admit(dense.mesh.face_count()); !admitted) return admitted.error();
+    }
     for (; run.limit && share / 2 >= kLastShare; share /= 2) {
         Expected<MethodResult> result = attempt_policy(source, dense, run, share, false, policy, faces_of, context);
         if (!result || keeps_limit(*result, run.limit)) return result;

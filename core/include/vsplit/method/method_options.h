@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -48,6 +49,8 @@ struct ImproveOptions {
     /// 0..1: simplification ends where the mean stretch gets less: there is the coarsest resolution, but `faces` come first where
     /// they are given. Default EXTENDED 0.8, or 0 where faces_min is given; STRICT 0
     std::optional<double> min_mean_stretch{};
+
+    friend bool operator==(const ImproveOptions&, const ImproveOptions&) = default;
 };
 
 /// What `control` may be asked for. Lengths in model units.
@@ -72,6 +75,8 @@ struct ControlOptions {
     std::vector<std::uint32_t> regions{};                 ///< as in ImproveOptions
     std::optional<SizingOptions> sizing{};                ///< as in ImproveOptions; max_size bounds it too
     std::optional<bool> freeze_boundary{};                ///< as in ImproveOptions
+
+    friend bool operator==(const ControlOptions&, const ControlOptions&) = default;
 };
 
 /// What either method is asked for; which one says which method it is.
@@ -80,6 +85,9 @@ using MethodOptions = std::variant<ImproveOptions, ControlOptions>;
 /// Limits the host sets, not the user of a method.
 struct MethodLimits {
     std::uint32_t max_faces = 20'000'000;  ///< after subdivision
+    /// Asked when the number of faces after subdivision is known, before memory is taken for the simplification of so many. An
+    /// error ends the method with it. Empty: they may.
+    std::function<Status(std::uint32_t faces)> admit{};
 };
 
 /// Ranges and contradictions. \return INVALID_OPTION or UNSUPPORTED naming the field, what it was and what would be accepted.

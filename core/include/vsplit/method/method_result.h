@@ -24,9 +24,8 @@ struct Violation {
     std::string reason;                   ///< one sentence: why it could not be mended
 };
 
-/// What both methods return: the MRR and the figures of the resolution that was asked for.
-struct MethodResult {
-    MultiresMesh mrr;
+/// What a method tells of its result.
+struct MethodFigures {
     MethodOptions options;  ///< as used, defaults filled in
     /// Resolution shown: the nearest to the one asked for that exists; near that one in control, and finer where max_deviation
     /// is given, where bounds hold there and not at the nearest.
@@ -38,6 +37,11 @@ struct MethodResult {
     std::chrono::duration<double> elapsed{};
 
     [[nodiscard]] bool bounds_satisfied() const { return violations.empty(); }
+};
+
+/// What both methods return: the MRR and the figures of the resolution that was asked for.
+struct MethodResult : MethodFigures {
+    MultiresMesh mrr;
 };
 
 }  // namespace vsplit

@@ -21,6 +21,8 @@ struct SizeSphere {
     Vec3 center = Vec3::Zero();
     double radius = 0;  ///< length, >= 0; 0 is a point
     double size = 0;    ///< length, > 0
+
+    friend bool operator==(const SizeSphere&, const SizeSphere&) = default;
 };
 
 /// No edge in the axis-aligned box is longer than `size`.
@@ -28,6 +30,8 @@ struct SizeBox {
     Vec3 min = Vec3::Zero();
     Vec3 max = Vec3::Zero();  ///< nowhere below min
     double size = 0;          ///< length, > 0
+
+    friend bool operator==(const SizeBox&, const SizeBox&) = default;
 };
 
 /// How long edges may be where on the surface: the least of everything given here. Lengths in model units.
@@ -41,6 +45,8 @@ struct SizingOptions {
         kDefaultGradation;             ///< > 0, at most 1: the size grows by at most this per unit of length along the surface
     std::optional<double> min_size{};  ///< length, > 0: no size is less, whatever asks for it; default none
     std::optional<double> max_size{};  ///< length, > 0, at least min_size; default none
+
+    friend bool operator==(const SizingOptions&, const SizingOptions&) = default;
 };
 
 /// Ranges and contradictions. `max_size` is the method's own bound, if it has one, for the contradiction of min_size.

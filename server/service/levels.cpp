@@ -1,0 +1,46 @@
+#include "service/levels.h"
+
+#include <utility>
+
+#include "service/memory_use.h"
+#include "vsplit/mrr/progressive_mesh.h"
+
+namespace vsplit::service {
+namespace {
+
+constexpr std::size_t kCachedMeshes = 2;
+constexpr std::size_t kKeptEncodings = 2;
+
+/// The value of `key` in `cache`, from `make()` when it is not there; it stays there if memory has room for the `bytes(value)`.
+template <class Value, class Make, class Bytes>
+std::shared_ptr<const Value> cached(LruCache<Paid<Value>>& cache, std::size_t key, MemoryBudget& budget, const Make& make,
+                                    const Bytes& bytes) {
+    std::shared_ptr<const Paid<Value>> paid = cache.find(key);
+    if (!paid) {
+        auto made = std::make_shared<Paid<Value>>(Paid<Value>{make(), {}});
+        Expected<MemoryBudget::Share> share = budget.reserve(bytes(made->value), "a cached level");
+        if (share) made->share = *std::move(share);
+        paid = share ? cache.insert(key, std::move(made)) : std::move(made);
+    }
+    return {paid, &paid->value};
+}
+
+}  // namespace
+
+Levels::Levels(MultiresMesh mrr, MemoryBudget& budget)
+    : mrr_(std::move(mrr)), budget_(budget), meshes_(kCachedMeshes), encoded_(kKeptEncodings) {}
+
+std::shared_ptr<const TriangleMesh> Levels::mesh(std::size_t level) const {
+    return cached(
+        meshes_, level, budget_, [&] { return mesh_at(mrr_, level); }, [](const TriangleMesh& mesh) { return memory_of(mesh); });
+}
+
+std::shared_ptr<EncodedRecords> Levels::encoded(const EncodingChoice& choice) const {
+    const std::size_t key = static_cast<std::size_t>(choice.encoding) * (kMostBits + 1) + choice.bits;
+    // Blocks and the mesh they are made with come bit by bit; half of what the representation takes is more than they get.
+    const auto half = [this](const std::shared_ptr<EncodedRecords>&) { return memory_of(mrr_) / 2; };
+    return *cached(
+        encoded_, key, budget_, [&] { return std::make_shared<EncodedRecords>(mrr_, choice); }, half);
+}
+
+}  // namespace vsplit::service

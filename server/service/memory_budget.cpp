@@ -1,0 +1,117 @@
+#include "service/memory_budget.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "service/limits.h"
+
+namespace vsplit::service {
+
+MemoryBudget::Share::Share(Share&& other) noexcept
+    : budget_(std::exchange(other.budget_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
+
+MemoryBudget::Share& MemoryBudget::Share::operator=(Share&& other) noexcept {
+    std::swap(budget_, other.budget_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+}
+
+void MemoryBudget::Share::give_back() {
+    if (budget_ == nullptr) return;
+    const std::lock_guard lock(budget_->mutex_);
+    budget_->used_ -= bytes_;
+    budget_ = nullptr;
+}
+
+Expected<MemoryBudget::Share> MemoryBudget::reserve(std::uint64_t bytes, std::string_view what) {
+    if (take_if_room(bytes)) return Share(*this, bytes);
+    for (const std::weak_ptr<Evictable>& thing : least_recent_first()) {
+        evict(thing);
+        if (take_if_room(bytes)) return Share(*this, bytes);
+    }
+    const Use now = use();
+    return Error{Cause::kLimitExceeded,
+                 std::string(what) + " takes about " + std::to_string(bytes) + " bytes of memory; " + std::to_string(now.bytes) +
+                     " of the server's limit max_memory_bytes, " + std::to_string(now.limit) + ", are in use",
+                 "", bytes <= now.limit ? kRetryAfter : 0};
+}
+
+MemoryBudget::Share MemoryBudget::charge(std::uint64_t bytes) {
+    {
+        const std::lock_guard lock(mutex_);
+        used_ += bytes;
+    }
+    Share share(*this, bytes);
+    if (fits()) return share;
+    for (const std::weak_ptr<Evictable>& thing : least_recent_first()) {
+        evict(thing);
+        if (fits()) break;
+    }
+    return share;
+}
+
+void MemoryBudget::touch(const std::shared_ptr<Evictable>& thing) {
+    const std::lock_guard lock(mutex_);
+    const auto place = places_.find(thing.get());
+    if (place != places_.end()) {
+        entries_.splice(entries_.begin(), entries_, place->second);
+        return;
+    }
+    entries_.push_front({thing.get(), thing});
+    places_.emplace(thing.get(), entries_.begin());
+}
+
+void MemoryBudget::forget(const Evictable* thing) {
+    const std::lock_guard lock(mutex_);
+    const auto place = places_.find(thing);
+    if (place == places_.end()) return;
+    entries_.erase(place->second);
+    places_.erase(place);
+}
+
+MemoryBudget::Use MemoryBudget::use() const {
+    const std::lock_guard lock(mutex_);
+    return {used_, limit_, evictions_};
+}
+
+bool MemoryBudget::take_if_room(std::uint64_t bytes) {
+    const std::lock_guard lock(mutex_);
+    if (limit_ != 0 && (bytes > limit_ || used_ > limit_ - bytes)) return false;
+    used_ += bytes;
+    return true;
+}
+
+bool MemoryBudget::fits() const {
+    const std::lock_guard lock(mutex_);
+    return limit_ == 0 || used_ <= limit_;
+}
+
+void MemoryBudget::evict(const std::weak_ptr<Evictable>& thing) {
+    const std::shared_ptr<Evictable> there = thing.lock();
+    if (!there || !there->let_go()) return;
+    const std::lock_guard lock(mutex_);
+    ++evictions_;
+}
+
+std::vector<std::weak_ptr<Evictable>> MemoryBudget::least_recent_first() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::weak_ptr<Evictable>> things;
+    things.reserve(entries_.size());
+    std::transform(entries_.rbegin(), entries_.rend(), std::back_inserter(things), [](const Entry& e) { return e.thing; });
+    return things;
+}
+
+std::uint64_t usual_memory_limit() {
+    std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    std::ifstream group("/sys/fs/cgroup/memory.max");  // of the container, which sees its own group as the root
+    std::uint64_t of_group = 0;
+    if (group >> of_group) bytes = std::min(bytes, of_group);  // "max" is no number
+    return bytes / 4 * 3;
+}
+
+}  // namespace vsplit::service

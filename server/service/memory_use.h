@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+#include "vsplit/mesh/triangle_mesh.h"
+#include "vsplit/mrr/multires_mesh.h"
+
+namespace vsplit::service {
+
+// What things take in memory, bytes; names and the like left out. O(1).
+
+[[nodiscard]] std::uint64_t memory_of(const TriangleMesh& mesh);
+[[nodiscard]] std::uint64_t memory_of(const MultiresMesh& mrr);
+
+/// What reading a file takes while it goes on, the mesh included.
+[[nodiscard]] std::uint64_t memory_to_read(std::uint64_t file_bytes);
+
+/// What a method takes while it runs, the result included, for `faces` after subdivision.
+[[nodiscard]] std::uint64_t memory_to_simplify(std::uint64_t faces);
+
+}  // namespace vsplit::service

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vsplit/base/expected.h"
+
+namespace vsplit::store {
+
+using Bytes = std::span<const std::byte>;
+
+/// Bytes that never change, at hand for as long as this is.
+class Blob {
+public:
+    Blob() = default;
+    virtual ~Blob() = default;
+    Blob(const Blob&) = delete;
+    Blob& operator=(const Blob&) = delete;
+
+    [[nodiscard]] virtual Bytes bytes() const = 0;
+};
+
+/// A blob's name and size.
+struct BlobEntry {
+    std::string key;
+    std::uint64_t bytes = 0;
+};
+
+/// Keeps bytes under a name that follows from them: 64 hexadecimal digits, their SHA-256. Thread-safe.
+class BlobStore {
+public:
+    BlobStore() = default;
+    virtual ~BlobStore() = default;
+    BlobStore(const BlobStore&) = delete;
+    BlobStore& operator=(const BlobStore&) = delete;
+
+    /// Keeps `parts`, one after the other, as one blob; they are there for good when this returns. Bytes that are kept already
+    /// cost nothing. \return LIMIT_EXCEEDED (the quota, a full disk), UNAVAILABLE.
+    [[nodiscard]] virtual Expected<BlobEntry> put(std::span<const Bytes> parts) = 0;
+
+    /// \return CORRUPT for bytes that are not there, or no longer those that were kept; UNAVAILABLE. O(bytes).
+    [[nodiscard]] virtual Expected<std::shared_ptr<const Blob>> get(const std::string& key) const = 0;
+
+    /// One that is not there is removed. \return UNAVAILABLE.
+    [[nodiscard]] virtual Status remove(const std::string& key) = 0;
+
+    /// All blobs, by key. \return UNAVAILABLE.
+    [[nodiscard]] virtual Expected<std::vector<BlobEntry>> list() const = 0;
+
+    /// What all blobs take together, bytes. O(1).
+    [[nodiscard]] virtual std::uint64_t bytes() const = 0;
+};
+
+}  // namespace vsplit::store

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "service/session_archive.h"
+#include "store/stored_sessions.h"
+#include "vsplit/base/expected.h"
+
+namespace vsplit::store {
+
+/// Where a server keeps its sessions, and whatever else it writes:
+///
+///     lock            held by the server that runs
+///     sessions.db     the index
+///     blobs/          the blobs
+///     uploads/        mesh files on their way
+///     damaged-1/ ...  an index that could not be read and its blobs, put there untouched
+class DataDir {
+public:
+    /// Makes the directory if need be. No other server may have it.
+    /// \param quota bytes of disk that meshes and representations may take; 0: no limit.
+    /// \return UNAVAILABLE, LIMIT_EXCEEDED, UNSUPPORTED (made by a later version), INVALID_OPTION (no directory).
+    [[nodiscard]] static Expected<DataDir> open(const std::filesystem::path& directory, std::uint64_t quota, Report report);
+
+    ~DataDir();
+    DataDir(DataDir&& other) noexcept;
+    DataDir& operator=(DataDir&&) = delete;
+
+    /// For files that are gone with the process.
+    [[nodiscard]] std::filesystem::path uploads() const { return directory_ / "uploads"; }
+
+    /// The archive, given away, once. It must not outlive this.
+    [[nodiscard]] std::unique_ptr<service::SessionArchive> take_archive() { return std::move(archive_); }
+
+private:
+    DataDir(std::filesystem::path directory, int lock) : directory_(std::move(directory)), lock_(lock) {}
+
+    [[nodiscard]] Status open_archive(std::uint64_t quota, const Report& report);
+
+    std::filesystem::path directory_;
+    int lock_ = -1;
+    std::unique_ptr<service::SessionArchive> archive_;
+};
+
+}  // namespace vsplit::store

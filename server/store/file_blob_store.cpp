@@ -1,0 +1,198 @@
+#include "store/file_blob_store.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "service/limits.h"
+#include "store/disk_error.h"
+#include "store/sha256.h"
+
+namespace vsplit::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Closes at the end of the scope.
+class Descriptor {
+public:
+    Descriptor(const fs::path& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC, 0600)) {}
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    [[nodiscard]] int number() const { return number_; }
+    [[nodiscard]] bool open() const { return number_ >= 0; }
+
+private:
+    int number_;
+};
+
+class MappedBlob final : public Blob {
+public:
+    MappedBlob(void* address, std::size_t size) : address_(address), size_(size) {}
+    ~MappedBlob() override {
+        if (size_ != 0) munmap(address_, size_);
+    }
+    [[nodiscard]] Bytes bytes() const override { return {static_cast<const std::byte*>(address_), size_}; }
+
+private:
+    void* address_;
+    std::size_t size_;
+};
+
+std::uint64_t size_of(std::span<const Bytes> parts) {
+    std::uint64_t size = 0;
+    for (const Bytes part : parts) size += part.size();
+    return size;
+}
+
+bool write_all(int descriptor, Bytes bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return false;
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+// A name is for good when its directory has been synchronised.
+bool sync_directory(const fs::path& directory) {
+    const Descriptor opened(directory, O_RDONLY | O_DIRECTORY);
+    return opened.open() && fsync(opened.number()) == 0;
+}
+
+bool is_key(const std::string& name) {
+    return name.size() == 64 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+Expected<std::shared_ptr<const Blob>> map_file(const fs::path& place) {
+    const Descriptor file(place, O_RDONLY);
+    if (!file.open() && errno == ENOENT) return Error{Cause::kCorrupt, "the data directory: " + place.filename().string() + " is missing", ""};
+    struct stat about {};
+    if (!file.open() || fstat(file.number(), &about) != 0) return disk_error("cannot open " + place.string());
+    const auto size = static_cast<std::size_t>(about.st_size);
+    if (size == 0) return std::shared_ptr<const Blob>(std::make_shared<MappedBlob>(nullptr, 0));
+    void* const address = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number(), 0);
+    if (address == MAP_FAILED) return disk_error("cannot map " + place.string());
+    return std::shared_ptr<const Blob>(std::make_shared<MappedBlob>(address, size));
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<FileBlobStore>> FileBlobStore::open(fs::path directory, std::uint64_t quota) {
+    std::unique_ptr<FileBlobStore> store(new FileBlobStore(std::move(directory), quota));
+    std::error_code failed;
+    fs::remove_all(store->incoming_, failed);
+    if (!failed) fs::create_directories(store->incoming_, failed);
+    if (failed) return disk_error("cannot make " + store->incoming_.string(), failed.value());
+    const Expected<std::vector<BlobEntry>> all = store->list();
+    if (!all) return all.error();
+    for (const BlobEntry& blob : *all) store->bytes_ += blob.bytes;
+    return store;
+}
+
+fs::path FileBlobStore::place_of(const std::string& key) const { return directory_ / key.substr(0, 2) / key; }
+
+std::uint64_t FileBlobStore::bytes() const {
+    const std::lock_guard lock(mutex_);
+    return bytes_;
+}
+
+Status FileBlobStore::take_room(std::uint64_t bytes) {
+    const std::lock_guard lock(mutex_);
+    if (quota_ != 0 && (bytes > quota_ || bytes_ > quota_ - bytes)) {
+        return Error{Cause::kLimitExceeded,
+                     "keeping this takes " + std::to_string(bytes) + " bytes of disk; " + std::to_string(bytes_) +
+                         " of the server's limit max_disk_bytes, " + std::to_string(quota_) + ", are in use; delete a session",
+                     "", bytes <= quota_ ? service::kRetryAfter : 0};
+    }
+    bytes_ += bytes;
+    return Done{};
+}
+
+void FileBlobStore::give_back(std::uint64_t bytes) {
+    const std::lock_guard lock(mutex_);
+    bytes_ -= bytes;
+}
+
+Expected<BlobEntry> FileBlobStore::put(std::span<const Bytes> parts) {
+    BlobEntry blob{sha256(parts), size_of(parts)};
+    const fs::path place = place_of(blob.key);
+    struct stat about {};
+    if (stat(place.c_str(), &about) == 0) {
+        if (static_cast<std::uint64_t>(about.st_size) == blob.bytes) return blob;
+        if (Status removed = remove(blob.key); !removed) return removed.error();  // a damaged one
+    }
+    if (Status room = take_room(blob.bytes); !room) return room.error();
+    if (Status written = write(place, parts); !written) {
+        give_back(blob.bytes);
+        return written.error();
+    }
+    return blob;
+}
+
+Status FileBlobStore::write(const fs::path& place, std::span<const Bytes> parts) {
+    const fs::path incoming = incoming_ / std::to_string(++written_);
+    const auto fail = [&incoming](const std::string& what) {
+        const int number = errno;
+        unlink(incoming.c_str());
+        return disk_error(what, number);
+    };
+    {
+        const Descriptor file(incoming, O_WRONLY | O_CREAT | O_TRUNC);
+        if (!file.open()) return fail("cannot make " + incoming.string());
+        for (const Bytes part : parts) {
+            if (!write_all(file.number(), part)) return fail("cannot write " + incoming.string());
+        }
+        if (fsync(file.number()) != 0) return fail("cannot write " + incoming.string());
+    }
+    const fs::path directory = place.parent_path();
+    if (mkdir(directory.c_str(), 0700) == 0) {
+        if (!sync_directory(directory_)) return fail("cannot write " + directory_.string());
+    } else if (errno != EEXIST) {
+        return fail("cannot make " + directory.string());
+    }
+    if (rename(incoming.c_str(), place.c_str()) != 0) return fail("cannot rename " + incoming.string());
+    if (!sync_directory(directory)) return fail("cannot write " + directory.string());
+    return Done{};
+}
+
+Expected<std::shared_ptr<const Blob>> FileBlobStore::get(const std::string& key) const {
+    Expected<std::shared_ptr<const Blob>> blob = map_file(place_of(key));
+    if (!blob) return blob;
+    const Bytes bytes = (*blob)->bytes();
+    if (sha256({&bytes, 1}) == key) return blob;
+    return Error{Cause::kCorrupt, "the data directory: " + key + " does not hold the bytes that were kept under this name", ""};
+}
+
+Status FileBlobStore::remove(const std::string& key) {
+    const fs::path place = place_of(key);
+    struct stat about {};
+    if (stat(place.c_str(), &about) != 0 && errno == ENOENT) return Done{};
+    if (unlink(place.c_str()) != 0) return disk_error("cannot remove " + place.string());
+    give_back(static_cast<std::uint64_t>(about.st_size));
+    return Done{};
+}
+
+Expected<std::vector<BlobEntry>> FileBlobStore::list() const {
+    std::vector<BlobEntry> blobs;
+    std::error_code failed;
+    for (fs::recursive_directory_iterator at(directory_, failed), end; !failed && at != end; at.increment(failed)) {
+        const std::string name = at->path().filename().string();
+        std::error_code unknown;
+        if (is_key(name) && at->is_regular_file(unknown)) blobs.push_back({name, at->file_size(unknown)});
+    }
+    if (failed) return disk_error("cannot read " + directory_.string(), failed.value());
+    std::sort(blobs.begin(), blobs.end(), [](const BlobEntry& a, const BlobEntry& b) { return a.key < b.key; });
+    return blobs;
+}
+
+}  // namespace vsplit::store

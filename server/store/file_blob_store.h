@@ -1,0 +1,43 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+
+#include "store/blob_store.h"
+
+namespace vsplit::store {
+
+/// Blobs as files, directory/ab/abcdef...: written beside their place, synchronised and renamed into it, mapped to be read. The
+/// directory has nobody else's files.
+class FileBlobStore final : public BlobStore {
+public:
+    /// Makes the directory if need be, and removes what was being written when a server ended.
+    /// \param quota bytes that all blobs may take together; 0: no limit. \return UNAVAILABLE, LIMIT_EXCEEDED.
+    [[nodiscard]] static Expected<std::unique_ptr<FileBlobStore>> open(std::filesystem::path directory, std::uint64_t quota);
+
+    [[nodiscard]] Expected<BlobEntry> put(std::span<const Bytes> parts) override;
+    [[nodiscard]] Expected<std::shared_ptr<const Blob>> get(const std::string& key) const override;
+    [[nodiscard]] Status remove(const std::string& key) override;
+    [[nodiscard]] Expected<std::vector<BlobEntry>> list() const override;
+    [[nodiscard]] std::uint64_t bytes() const override;
+
+private:
+    FileBlobStore(std::filesystem::path directory, std::uint64_t quota)
+        : directory_(std::move(directory)), incoming_(directory_ / "incoming"), quota_(quota) {}
+
+    [[nodiscard]] std::filesystem::path place_of(const std::string& key) const;
+    [[nodiscard]] Status take_room(std::uint64_t bytes);
+    void give_back(std::uint64_t bytes);
+    [[nodiscard]] Status write(const std::filesystem::path& place, std::span<const Bytes> parts);
+
+    const std::filesystem::path directory_;
+    const std::filesystem::path incoming_;
+    const std::uint64_t quota_;
+    std::atomic<std::uint64_t> written_ = 0;  // names of files in incoming_
+    mutable std::mutex mutex_;
+    std::uint64_t bytes_ = 0;
+};
+
+}  // namespace vsplit::store

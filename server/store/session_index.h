@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vsplit/base/expected.h"
+
+namespace vsplit::store {
+
+/// A mesh in the blob store and what is known of it, opaque here.
+struct StoredItem {
+    std::string blob;  ///< its key; empty: no mesh
+    std::string info;
+};
+
+// Times are milliseconds: `created` since 1970, all others service time (service/session_archive.h).
+
+struct SessionRow {
+    std::uint64_t number = 0;
+    std::string id;
+    std::string owner;
+    std::int64_t created = 0;
+    std::int64_t expires = 0;
+    std::uint64_t made = 0;
+    StoredItem source;
+};
+
+struct RepresentationRow {
+    std::uint64_t session = 0;
+    std::uint64_t number = 0;  ///< within the session, from 1
+    StoredItem item;
+};
+
+struct JobRow {
+    std::uint64_t number = 0;
+    std::uint64_t session = 0;
+    std::string info;
+};
+
+/// Everything that is not set aside, in order of numbers.
+struct IndexContents {
+    std::int64_t now = 0;
+    std::vector<SessionRow> sessions;
+    std::vector<RepresentationRow> representations;
+    std::vector<JobRow> jobs;
+};
+
+/// Which sessions there are and what is theirs. Thread-safe. Each call is done whole and for good when it returns success, or not
+/// at all. They return LIMIT_EXCEEDED where the disk is full and UNAVAILABLE where it cannot be used; what else is said.
+class SessionIndex {
+public:
+    SessionIndex() = default;
+    virtual ~SessionIndex() = default;
+    SessionIndex(const SessionIndex&) = delete;
+    SessionIndex& operator=(const SessionIndex&) = delete;
+
+    [[nodiscard]] virtual Expected<IndexContents> load() = 0;
+
+    [[nodiscard]] virtual Status add_session(const SessionRow& session) = 0;
+
+    /// Drops the session's representations and jobs. \return NOT_FOUND.
+    [[nodiscard]] virtual Status set_source(std::uint64_t session, const StoredItem& source) = 0;
+
+    /// `made`: the session's, from now on. \return NOT_FOUND.
+    [[nodiscard]] virtual Status add_representation(const RepresentationRow& representation, std::uint64_t made) = 0;
+
+    /// With all that is theirs.
+    [[nodiscard]] virtual Status remove_sessions(const std::vector<std::uint64_t>& sessions) = 0;
+
+    [[nodiscard]] virtual Status note_time(std::int64_t now,
+                                           const std::vector<std::pair<std::uint64_t, std::int64_t>>& expire) = 0;
+
+    /// \return its number; NOT_FOUND.
+    [[nodiscard]] virtual Expected<std::uint64_t> add_job(std::uint64_t session, const std::string& info) = 0;
+    [[nodiscard]] virtual Status remove_jobs(const std::vector<std::uint64_t>& jobs) = 0;
+
+    /// `load` passes the session over from now on; what is its stays.
+    [[nodiscard]] virtual Status set_aside(std::uint64_t session, const std::string& why) = 0;
+
+    /// How many are set aside.
+    [[nodiscard]] virtual Expected<std::uint32_t> count_aside() = 0;
+
+    /// Blobs of these sessions, each once.
+    [[nodiscard]] virtual Expected<std::vector<std::string>> blobs_of(const std::vector<std::uint64_t>& sessions) = 0;
+
+    /// Those of `blobs` that no session has, of those set aside neither.
+    [[nodiscard]] virtual Expected<std::vector<std::string>> unused(const std::vector<std::string>& blobs) = 0;
+};
+
+}  // namespace vsplit::store

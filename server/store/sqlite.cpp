@@ -1,0 +1,112 @@
+#include "store/sqlite.h"
+
+#include "service/limits.h"
+
+namespace vsplit::store {
+
+Expected<Database> Database::open(const std::filesystem::path& file) {
+    sqlite3* handle = nullptr;
+    // One connection, guarded by its owner.
+    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+    const int result = sqlite3_open_v2(file.c_str(), &handle, flags, nullptr);
+    Database database(handle);
+    if (handle == nullptr) return Error{Cause::kLimitExceeded, "no memory to open " + file.string(), ""};
+    if (result != SQLITE_OK) return database.error();
+    return database;
+}
+
+Status Database::run(const char* sql) {
+    if (sqlite3_exec(handle_.get(), sql, nullptr, nullptr, nullptr) == SQLITE_OK) return Done{};
+    return error();
+}
+
+Statement Database::prepare(const char* sql) {
+    sqlite3_stmt* statement = nullptr;
+    sqlite3_prepare_v2(handle_.get(), sql, -1, &statement, nullptr);
+    return {*this, statement};
+}
+
+Error Database::error() const {
+    const int code = sqlite3_errcode(handle_.get());
+    const std::string message = "the data directory's index: " + std::string(sqlite3_errmsg(handle_.get()));
+    switch (code) {
+        case SQLITE_FULL:
+            return {Cause::kLimitExceeded, message, "", service::kRetryAfter};
+        case SQLITE_CORRUPT:
+        case SQLITE_NOTADB:
+            return {Cause::kCorrupt, message, ""};
+        default:
+            return {Cause::kUnavailable, message, "", service::kRetryAfter};
+    }
+}
+
+Statement& Statement::bind(std::uint64_t value) { return bind(static_cast<std::int64_t>(value)); }
+
+Statement& Statement::bind(std::int64_t value) {
+    sqlite3_bind_int64(handle_.get(), ++bound_, value);
+    return *this;
+}
+
+// What is bound outlives the statement's run: callers step before they return.
+Statement& Statement::bind_text(std::string_view value) {
+    sqlite3_bind_text64(handle_.get(), ++bound_, value.data(), value.size(), SQLITE_STATIC, SQLITE_UTF8);
+    return *this;
+}
+
+Statement& Statement::bind_blob(std::string_view value) {
+    sqlite3_bind_blob64(handle_.get(), ++bound_, value.data(), value.size(), SQLITE_STATIC);
+    return *this;
+}
+
+Statement& Statement::bind_null() {
+    sqlite3_bind_null(handle_.get(), ++bound_);
+    return *this;
+}
+
+Expected<bool> Statement::step() {
+    if (!handle_) return database_->error();
+    switch (sqlite3_step(handle_.get())) {
+        case SQLITE_ROW:
+            return true;
+        case SQLITE_DONE:
+            return false;
+        default:
+            return database_->error();
+    }
+}
+
+Status Statement::run() {
+    const Expected<bool> row = step();
+    reset();
+    if (!row) return row.error();
+    return Done{};
+}
+
+void Statement::reset() {
+    sqlite3_reset(handle_.get());
+    bound_ = 0;
+}
+
+std::string Statement::bytes(int column) const {
+    const void* const data = sqlite3_column_blob(handle_.get(), column);
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column));
+    return data == nullptr ? std::string() : std::string(static_cast<const char*>(data), size);
+}
+
+Transaction::~Transaction() {
+    if (open_) static_cast<void>(database_.run("ROLLBACK"));
+}
+
+Status Transaction::begin() {
+    Status begun = database_.run("BEGIN IMMEDIATE");
+    open_ = begun.has_value();
+    return begun;
+}
+
+Status Transaction::commit() {
+    if (Status committed = database_.run("COMMIT"); !committed) return committed;
+    open_ = false;
+    return Done{};
+}
+
+}  // namespace vsplit::store

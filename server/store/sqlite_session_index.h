@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+
+#include "store/session_index.h"
+#include "store/sqlite.h"
+
+namespace vsplit::store {
+
+/// The index as an SQLite database with a write-ahead log, synchronised at each commit.
+class SqliteSessionIndex final : public SessionIndex {
+public:
+    /// Makes the database if need be.
+    /// \return CORRUPT for one that is damaged, UNSUPPORTED for one of a later version, UNAVAILABLE, LIMIT_EXCEEDED.
+    [[nodiscard]] static Expected<std::unique_ptr<SqliteSessionIndex>> open(const std::filesystem::path& file);
+
+    [[nodiscard]] Expected<IndexContents> load() override;
+    [[nodiscard]] Status add_session(const SessionRow& session) override;
+    [[nodiscard]] Status set_source(std::uint64_t session, const StoredItem& source) override;
+    [[nodiscard]] Status add_representation(const RepresentationRow& representation, std::uint64_t made) override;
+    [[nodiscard]] Status remove_sessions(const std::vector<std::uint64_t>& sessions) override;
+    [[nodiscard]] Status note_time(std::int64_t now,
+                                   const std::vector<std::pair<std::uint64_t, std::int64_t>>& expire) override;
+    [[nodiscard]] Expected<std::uint64_t> add_job(std::uint64_t session, const std::string& info) override;
+    [[nodiscard]] Status remove_jobs(const std::vector<std::uint64_t>& jobs) override;
+    [[nodiscard]] Status set_aside(std::uint64_t session, const std::string& why) override;
+    [[nodiscard]] Expected<std::uint32_t> count_aside() override;
+    [[nodiscard]] Expected<std::vector<std::string>> blobs_of(const std::vector<std::uint64_t>& sessions) override;
+    [[nodiscard]] Expected<std::vector<std::string>> unused(const std::vector<std::string>& blobs) override;
+
+private:
+    explicit SqliteSessionIndex(Database database) : database_(std::move(database)) {}
+
+    [[nodiscard]] Status prepare_schema();
+    [[nodiscard]] Status load_sessions(IndexContents& contents);
+    [[nodiscard]] Status load_representations(IndexContents& contents);
+    [[nodiscard]] Status load_jobs(IndexContents& contents);
+    [[nodiscard]] Status for_each(const char* sql, const std::vector<std::uint64_t>& numbers);
+
+    std::mutex mutex_;
+    Database database_;
+};
+
+}  // namespace vsplit::store

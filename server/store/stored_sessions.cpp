@@ -1,0 +1,251 @@
+#include "store/stored_sessions.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include "store/mesh_blob.h"
+#include "store/stored_values.h"
+#include "vsplit/mrr/mrr_file.h"
+
+namespace vsplit::store {
+namespace {
+
+using service::Kept;
+using service::Levels;
+using service::MemoryBudget;
+using std::chrono::milliseconds;
+
+std::int64_t since_1970(std::chrono::system_clock::time_point time) {
+    return std::chrono::duration_cast<milliseconds>(time.time_since_epoch()).count();
+}
+
+/// What reads a blob, and tells the operator where it cannot. `read(bytes)` returns an Expected<std::shared_ptr<const Value>>.
+template <class Value, class Read>
+typename Kept<Value>::Load loader(std::shared_ptr<BlobStore> blobs, std::string key, std::shared_ptr<const Report> report,
+                                  Read read) {
+    return [blobs = std::move(blobs), key = std::move(key), report = std::move(report),
+            read = std::move(read)]() -> Expected<std::shared_ptr<const Value>> {
+        const Expected<std::shared_ptr<const Blob>> blob = blobs->get(key);
+        Expected<std::shared_ptr<const Value>> value =
+            blob ? read((*blob)->bytes()) : Expected<std::shared_ptr<const Value>>(blob.error());
+        if (!value) (*report)(value.error().message);
+        return value;
+    };
+}
+
+auto mesh_reader(std::vector<FaceSet> sets) {
+    return [sets = std::move(sets)](Bytes bytes) -> Expected<std::shared_ptr<const TriangleMesh>> {
+        Expected<TriangleMesh> mesh = read_mesh_blob(bytes);
+        if (!mesh) return mesh.error();
+        mesh->sets = sets;
+        return std::make_shared<const TriangleMesh>(*std::move(mesh));
+    };
+}
+
+auto levels_reader(MemoryBudget& budget) {
+    return [&budget](Bytes bytes) -> Expected<std::shared_ptr<const Levels>> {
+        Expected<StoredMrr> stored = decode_mrr(bytes);
+        if (!stored) return stored.error();
+        return std::make_shared<const Levels>(std::move(stored->mrr), budget);
+    };
+}
+
+/// Whether a blob is there with its size; what it holds is looked at when it is used.
+Status require_blob(const std::vector<BlobEntry>& blobs, const std::string& key, std::uint64_t bytes) {
+    const auto at = std::lower_bound(blobs.begin(), blobs.end(), key,
+                                     [](const BlobEntry& blob, const std::string& wanted) { return blob.key < wanted; });
+    if (at == blobs.end() || at->key != key) return Error{Cause::kCorrupt, key + " is missing", ""};
+    if (at->bytes == bytes) return Done{};
+    return Error{Cause::kCorrupt, key + " has " + std::to_string(at->bytes) + " bytes instead of " + std::to_string(bytes), ""};
+}
+
+std::vector<std::string> keys_of(const std::vector<BlobEntry>& blobs) {
+    std::vector<std::string> keys;
+    for (const BlobEntry& blob : blobs) keys.push_back(blob.key);
+    return keys;
+}
+
+}  // namespace
+
+StoredSessions::StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, std::uint64_t quota,
+                               Report report)
+    : blobs_(std::move(blobs)),
+      index_(std::move(index)),
+      quota_(quota),
+      report_(std::make_shared<const Report>(std::move(report))) {}
+
+Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
+    const Expected<IndexContents> contents = index_->load();
+    if (!contents) return contents.error();
+    const Expected<Blobs> blobs = blobs_->list();
+    if (!blobs) return blobs.error();
+    const Expected<std::uint32_t> aside = index_->count_aside();
+    if (!aside) return aside.error();
+    aside_ = *aside;
+
+    std::map<std::uint64_t, service::SessionRecord> records;
+    std::map<std::uint64_t, Error> damage;
+    for (const SessionRow& row : contents->sessions) {
+        Expected<service::SessionRecord> record = recall(row, *blobs, budget);
+        if (!record) damage.emplace(row.number, record.error());
+        if (record) records.emplace(row.number, *std::move(record));
+    }
+    for (const RepresentationRow& row : contents->representations) {
+        const auto record = records.find(row.session);
+        if (record == records.end()) continue;
+        Expected<std::shared_ptr<const service::Representation>> made = recall(row, *blobs, budget);
+        if (!made) damage.emplace(row.session, made.error());
+        if (made) record->second.representations.push_back(*std::move(made));
+    }
+    for (const JobRow& row : contents->jobs) {
+        const auto record = records.find(row.session);
+        Expected<service::MethodRequest> request = read_request(row.info);
+        if (record != records.end() && request) record->second.unfinished.push_back({row.number, *std::move(request)});
+    }
+    for (const SessionRow& row : contents->sessions) {
+        const auto why = damage.find(row.number);
+        if (why == damage.end()) continue;
+        records.erase(row.number);
+        if (Status done = set_aside(row.number, row.id, why->second); !done) return done.error();
+    }
+    collect(keys_of(*blobs));
+    service::Restored restored{{}, milliseconds(contents->now)};
+    for (auto& [number, record] : records) restored.sessions.push_back(std::move(record));
+    return restored;
+}
+
+Expected<service::SessionRecord> StoredSessions::recall(const SessionRow& row, const Blobs& blobs, MemoryBudget& budget) const {
+    service::SessionRecord record;
+    record.number = row.number;
+    record.id = row.id;
+    record.owner = row.owner;
+    record.create_time = std::chrono::system_clock::time_point(milliseconds(row.created));
+    record.expires = milliseconds(row.expires);
+    record.made = row.made;
+    if (row.source.blob.empty()) return record;
+    Expected<ToldSource> told = read_source(row.source.info);
+    if (!told) return told.error();
+    if (Status there = require_blob(blobs, row.source.blob, told->blob_bytes); !there) return there.error();
+    auto load = loader<TriangleMesh>(blobs_, row.source.blob, report_, mesh_reader(std::move(told->sets)));
+    auto mesh = Kept<TriangleMesh>::elsewhere(std::move(load), told->memory, budget);
+    record.source = std::make_shared<const service::SourceMesh>(service::SourceMesh{std::move(mesh), std::move(told->report)});
+    return record;
+}
+
+Expected<std::shared_ptr<const service::Representation>> StoredSessions::recall(const RepresentationRow& row, const Blobs& blobs,
+                                                                                MemoryBudget& budget) const {
+    Expected<ToldRepresentation> told = read_representation(row.item.info);
+    if (!told) return told.error();
+    if (Status there = require_blob(blobs, row.item.blob, told->blob_bytes); !there) return there.error();
+    auto load = loader<Levels>(blobs_, row.item.blob, report_, levels_reader(budget));
+    return std::make_shared<const service::Representation>(std::move(told->id), std::move(told->asked), std::move(told->figures),
+                                                           told->extent,
+                                                           Kept<Levels>::elsewhere(std::move(load), told->memory, budget));
+}
+
+Status StoredSessions::set_aside(std::uint64_t session, const std::string& id, const Error& why) {
+    (*report_)("session " + id + " is damaged and set aside: " + why.message);
+    ++aside_;
+    return index_->set_aside(session, why.message);
+}
+
+Expected<StoredItem> StoredSessions::keep_source(const service::SourceMesh& source) {
+    const Expected<std::shared_ptr<const TriangleMesh>> mesh = source.mesh->get();
+    if (!mesh) return mesh.error();
+    const MeshBlob encoded(**mesh);
+    const Expected<BlobEntry> blob = blobs_->put(encoded.parts());
+    if (!blob) return blob.error();
+    return StoredItem{blob->key, write_source(source, **mesh, blob->bytes)};
+}
+
+Expected<StoredItem> StoredSessions::keep_levels(const service::Representation& representation) {
+    const Expected<std::shared_ptr<const Levels>> levels = representation.levels().get();
+    if (!levels) return levels.error();
+    const std::string file = encode_mrr({(*levels)->mrr(), representation.figures().faces, {}});
+    const Bytes bytes = std::as_bytes(std::span(file));
+    const Expected<BlobEntry> blob = blobs_->put({&bytes, 1});
+    if (!blob) return blob.error();
+    return StoredItem{blob->key, write_representation(representation, blob->bytes)};
+}
+
+Status StoredSessions::add(const service::SessionRecord& session) {
+    const std::shared_lock lock(collecting_);
+    SessionRow row{session.number, session.id, session.owner, since_1970(session.create_time), session.expires.count(),
+                   session.made, {}};
+    if (session.source) {
+        Expected<StoredItem> item = keep_source(*session.source);
+        if (!item) return item.error();
+        row.source = *std::move(item);
+    }
+    if (Status added = index_->add_session(row); !added) return added;
+    if (session.source) can_be_loaded(*session.source, row.source.blob);
+    return Done{};
+}
+
+Status StoredSessions::set_source(std::uint64_t session, const service::SourceMesh& source) {
+    std::vector<std::string> before;
+    {
+        const std::shared_lock lock(collecting_);
+        Expected<std::vector<std::string>> blobs = index_->blobs_of({session});
+        if (!blobs) return blobs.error();
+        before = *std::move(blobs);
+        const Expected<StoredItem> item = keep_source(source);
+        if (!item) return item.error();
+        if (Status set = index_->set_source(session, *item); !set) return set;
+        can_be_loaded(source, item->blob);
+    }
+    collect(before);
+    return Done{};
+}
+
+void StoredSessions::can_be_loaded(const service::SourceMesh& source, const std::string& blob) const {
+    const Expected<std::shared_ptr<const TriangleMesh>> mesh = source.mesh->get();
+    if (mesh) source.mesh->can_be_loaded(loader<TriangleMesh>(blobs_, blob, report_, mesh_reader((*mesh)->sets)));
+}
+
+Status StoredSessions::add_representation(std::uint64_t session, const service::Representation& representation,
+                                          std::uint64_t made) {
+    const std::shared_lock lock(collecting_);
+    const Expected<StoredItem> item = keep_levels(representation);
+    if (!item) return item.error();
+    if (Status added = index_->add_representation({session, made, *item}, made); !added) return added;
+    MemoryBudget& budget = representation.levels().budget();
+    representation.levels().can_be_loaded(loader<Levels>(blobs_, item->blob, report_, levels_reader(budget)));
+    return Done{};
+}
+
+Status StoredSessions::remove(const std::vector<std::uint64_t>& sessions) {
+    const Expected<std::vector<std::string>> blobs = index_->blobs_of(sessions);
+    if (!blobs) return blobs.error();
+    if (Status removed = index_->remove_sessions(sessions); !removed) return removed;
+    collect(*blobs);
+    return Done{};
+}
+
+/// Removes those of `candidates` that nobody needs. What cannot be removed now is when the server next begins.
+void StoredSessions::collect(const std::vector<std::string>& candidates) {
+    const std::unique_lock lock(collecting_);
+    const Expected<std::vector<std::string>> unused = index_->unused(candidates);
+    if (!unused) return;
+    for (const std::string& key : *unused) static_cast<void>(blobs_->remove(key));
+}
+
+Status StoredSessions::note_time(milliseconds now, const std::vector<std::pair<std::uint64_t, milliseconds>>& expire) {
+    std::vector<std::pair<std::uint64_t, std::int64_t>> rows;
+    rows.reserve(expire.size());
+    for (const auto& [session, time] : expire) rows.emplace_back(session, time.count());
+    return index_->note_time(now.count(), rows);
+}
+
+Expected<std::uint64_t> StoredSessions::add_job(std::uint64_t session, const service::MethodRequest& request) {
+    return index_->add_job(session, write_request(request));
+}
+
+Status StoredSessions::remove_jobs(const std::vector<std::uint64_t>& jobs) { return index_->remove_jobs(jobs); }
+
+service::ArchiveUse StoredSessions::use() const { return {blobs_->bytes(), quota_, aside_}; }
+
+}  // namespace vsplit::store

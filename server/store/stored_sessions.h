@@ -1,0 +1,64 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <shared_mutex>
+#include <string>
+#include <vector>
+
+#include "service/session_archive.h"
+#include "store/blob_store.h"
+#include "store/session_index.h"
+
+namespace vsplit::store {
+
+/// Hears of what an operator should know. Any thread; must not block.
+using Report = std::function<void(const std::string& message)>;
+
+/// Sessions in a blob store and an index. A blob is there before the index names it, and goes when the index no longer does; so
+/// the end of the process leaves at most blobs that nobody needs, which `restore` removes.
+class StoredSessions final : public service::SessionArchive {
+public:
+    /// `quota`: bytes of disk, for `use` alone.
+    StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, std::uint64_t quota, Report report);
+
+    /// A session that is damaged is set aside and reported; the others are served.
+    [[nodiscard]] Expected<service::Restored> restore(service::MemoryBudget& budget) override;
+
+    [[nodiscard]] Status add(const service::SessionRecord& session) override;
+    [[nodiscard]] Status set_source(std::uint64_t session, const service::SourceMesh& source) override;
+    [[nodiscard]] Status add_representation(std::uint64_t session, const service::Representation& representation,
+                                            std::uint64_t made) override;
+    [[nodiscard]] Status remove(const std::vector<std::uint64_t>& sessions) override;
+    [[nodiscard]] Status note_time(
+        std::chrono::milliseconds now,
+        const std::vector<std::pair<std::uint64_t, std::chrono::milliseconds>>& expire) override;
+    [[nodiscard]] Expected<std::uint64_t> add_job(std::uint64_t session, const service::MethodRequest& request) override;
+    [[nodiscard]] Status remove_jobs(const std::vector<std::uint64_t>& jobs) override;
+    [[nodiscard]] service::ArchiveUse use() const override;
+
+private:
+    using Blobs = std::vector<BlobEntry>;
+
+    [[nodiscard]] Expected<StoredItem> keep_source(const service::SourceMesh& source);
+    [[nodiscard]] Expected<StoredItem> keep_levels(const service::Representation& representation);
+    [[nodiscard]] Expected<service::SessionRecord> recall(const SessionRow& row, const Blobs& blobs,
+                                                          service::MemoryBudget& budget) const;
+    [[nodiscard]] Expected<std::shared_ptr<const service::Representation>> recall(const RepresentationRow& row,
+                                                                                  const Blobs& blobs,
+                                                                                  service::MemoryBudget& budget) const;
+    [[nodiscard]] Status set_aside(std::uint64_t session, const std::string& id, const Error& why);
+    void can_be_loaded(const service::SourceMesh& source, const std::string& blob) const;
+    void collect(const std::vector<std::string>& candidates);
+
+    const std::shared_ptr<BlobStore> blobs_;  // also of what loads
+    const std::unique_ptr<SessionIndex> index_;
+    const std::uint64_t quota_;
+    const std::shared_ptr<const Report> report_;
+    std::atomic<std::uint32_t> aside_ = 0;
+    // Shared from before a blob is put until the index names it; alone while unused ones are removed.
+    std::shared_mutex collecting_;
+};
+
+}  // namespace vsplit::store

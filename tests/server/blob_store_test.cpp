@@ -1,0 +1,176 @@
+#include "store/file_blob_store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "scratch_dir.h"
+#include "store/mesh_blob.h"
+#include "store/sha256.h"
+#include "tests/core/meshes.h"
+
+namespace vsplit::store {
+namespace {
+
+using ::testing::HasSubstr;
+
+Bytes bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
+
+std::string text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+class FileBlobStoreTest : public ::testing::Test {
+protected:
+    std::unique_ptr<FileBlobStore> open(std::uint64_t quota = 0) {
+        auto store = FileBlobStore::open(scratch_.path() / "blobs", quota);
+        EXPECT_TRUE(store) << store.error().message;
+        return *std::move(store);
+    }
+
+    static Expected<BlobEntry> put(FileBlobStore& store, std::string_view text) {
+        const Bytes bytes = bytes_of(text);
+        return store.put({&bytes, 1});
+    }
+
+    std::filesystem::path file_of(const std::string& key) const { return scratch_.path() / "blobs" / key.substr(0, 2) / key; }
+
+    test::ScratchDir scratch_;
+};
+
+TEST(Sha256Test, IsTheOneEverybodyKnows) {
+    EXPECT_EQ(sha256({}), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    const std::vector<Bytes> parts{bytes_of("a"), bytes_of(""), bytes_of("bc")};
+    EXPECT_EQ(sha256(parts), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST_F(FileBlobStoreTest, GivesBackWhatItKeepsAlsoAfterItIsOpenedAnew) {
+    const std::string large(1'000'000, 'x');
+    std::string key;
+    {
+        const auto store = open();
+        const std::vector<Bytes> parts{bytes_of("head"), bytes_of(large)};
+        const auto blob = store->put(parts);
+        ASSERT_TRUE(blob) << blob.error().message;
+        EXPECT_EQ(blob->bytes, 1'000'004U);
+        key = blob->key;
+    }
+    const auto store = open();
+    EXPECT_EQ(store->bytes(), 1'000'004U);
+    const auto found = store->get(key);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(text_of((*found)->bytes()), "head" + large);
+}
+
+TEST_F(FileBlobStoreTest, TheSameBytesAreKeptOnce) {
+    const auto store = open();
+    const auto first = put(*store, "twice");
+    const auto second = put(*store, "twice");
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(first->key, second->key);
+    EXPECT_EQ(store->bytes(), 5U);
+    EXPECT_EQ(store->list()->size(), 1U);
+}
+
+TEST_F(FileBlobStoreTest, ABlobOutlivesItsRemoval) {
+    const auto store = open();
+    const auto key = put(*store, "gone").operator*().key;
+    const auto held = store->get(key);
+    ASSERT_TRUE(held);
+    ASSERT_TRUE(store->remove(key));
+    ASSERT_TRUE(store->remove(key)) << "it is removed already";
+    EXPECT_EQ(text_of((*held)->bytes()), "gone");
+    EXPECT_EQ(store->bytes(), 0U);
+    EXPECT_EQ(store->get(key).error().cause, Cause::kCorrupt);
+}
+
+TEST_F(FileBlobStoreTest, ChangedAndShortenedBytesAreNotServed) {
+    const auto store = open();
+    const auto key = put(*store, "as it was").operator*().key;
+    std::ofstream(file_of(key), std::ios::in | std::ios::out).write("AS", 2);
+    const auto changed = store->get(key);
+    ASSERT_FALSE(changed);
+    EXPECT_EQ(changed.error().cause, Cause::kCorrupt);
+    EXPECT_THAT(changed.error().message, HasSubstr(key));
+    std::filesystem::resize_file(file_of(key), 3);
+    EXPECT_EQ(store->get(key).error().cause, Cause::kCorrupt);
+    std::filesystem::resize_file(file_of(key), 0);
+    EXPECT_EQ(store->get(key).error().cause, Cause::kCorrupt);
+    ASSERT_TRUE(put(*store, "as it was")) << "a file of the wrong size is written anew";
+    EXPECT_TRUE(store->get(key));
+}
+
+TEST_F(FileBlobStoreTest, HalfWrittenFilesAreNoBlobsAndGo) {
+    open();
+    const auto half = scratch_.path() / "blobs" / "incoming" / "7";
+    std::ofstream(half) << "half";
+    EXPECT_TRUE(open()->list()->empty());
+    EXPECT_FALSE(std::filesystem::exists(half));
+}
+
+TEST_F(FileBlobStoreTest, TheQuotaIsCheckedBeforeAnythingIsWritten) {
+    const auto store = open(10);
+    ASSERT_TRUE(put(*store, "123456"));
+    const auto refused = put(*store, "12345");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().cause, Cause::kLimitExceeded);
+    EXPECT_THAT(refused.error().message, HasSubstr("max_disk_bytes, 10"));
+    EXPECT_EQ(store->bytes(), 6U);
+    EXPECT_TRUE(put(*store, "123456")) << "it is there already";
+    EXPECT_TRUE(put(*store, "1234"));
+    EXPECT_EQ(open(10)->bytes(), 10U);
+}
+
+TEST_F(FileBlobStoreTest, ThreadsPutTheSameAndOthers) {
+    const auto store = open();
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t) {
+        threads.emplace_back([&] {
+            for (int i = 0; i < 20; ++i) {
+                const std::string text = "blob " + std::to_string(i);
+                const auto blob = put(*store, text);
+                ASSERT_TRUE(blob) << blob.error().message;
+                EXPECT_EQ(text_of((*store->get(blob->key))->bytes()), text);
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(store->list()->size(), 20U);
+}
+
+TEST(MeshBlobTest, ReadsWhatItWrote) {
+    TriangleMesh mesh = test::icosphere(2);
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) mesh.regions.push_back(face % 3);
+    for (const TriangleMesh& one : {mesh, test::cube(), TriangleMesh()}) {
+        const MeshBlob blob(one);
+        std::string all;
+        for (const Bytes part : blob.parts()) all += text_of(part);
+        const auto read = read_mesh_blob(bytes_of(all));
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(*read, one);
+    }
+}
+
+TEST(MeshBlobTest, EveryShorterOneAndEveryChangedSizeIsCorrupt) {
+    const TriangleMesh cube = test::cube();
+    const MeshBlob blob(cube);
+    std::string all;
+    for (const Bytes part : blob.parts()) all += text_of(part);
+    for (std::size_t size = 0; size < all.size(); ++size) {
+        EXPECT_EQ(read_mesh_blob(bytes_of(all).first(size)).error().cause, Cause::kCorrupt) << size;
+    }
+    for (std::size_t at = 0; at < 24; ++at) {
+        std::string changed = all;
+        changed[at] = static_cast<char>(changed[at] ^ 0x40);
+        EXPECT_FALSE(read_mesh_blob(bytes_of(changed))) << at;
+    }
+    std::string beyond = all;
+    beyond[beyond.size() - 1] = 0x7f;  // of an index
+    EXPECT_THAT(read_mesh_blob(bytes_of(beyond)).error().message, HasSubstr("a vertex that is none"));
+}
+
+}  // namespace
+}  // namespace vsplit::store
