@@ -25,16 +25,28 @@ auto described(Options options) {
     return to_proto(options);
 }
 
-void set_options(const ImproveOptions& options, v1::Representation& proto) {
+template <class Proto>
+void set_options(const ImproveOptions& options, Proto& proto) {
     proto.set_method(v1::IMPROVE);
     *proto.mutable_improve_options() = described(options);
-    proto.set_mode(to_proto(options.mode.value_or(Mode::kExtended)));
 }
 
-void set_options(const ControlOptions& options, v1::Representation& proto) {
+template <class Proto>
+void set_options(const ControlOptions& options, Proto& proto) {
     proto.set_method(v1::CONTROL);
     *proto.mutable_control_options() = described(options);
-    proto.set_mode(to_proto(options.mode.value_or(Mode::kExtended)));
+}
+
+/// What both messages say of a request.
+template <class Proto>
+void set_request(const std::string& source_representation, std::uint32_t source_faces, const MethodOptions& options, Proto& proto) {
+    proto.mutable_source()->set_representation(source_representation);
+    proto.mutable_source()->set_faces(source_faces);
+    std::visit([&](const auto& o) { set_options(o, proto); }, options);
+}
+
+Mode mode_of(const MethodOptions& options) {
+    return std::visit([](const auto& o) { return o.mode.value_or(Mode::kExtended); }, options);
 }
 
 void set_violations(const std::vector<Violation>& violations, v1::Representation& proto) {
@@ -56,9 +68,8 @@ v1::Representation describe(const std::string& id, const std::string& source_rep
                             const MethodFigures& figures, const MrrExtent& extent) {
     v1::Representation proto;
     proto.set_id(id);
-    proto.mutable_source()->set_representation(source_representation);
-    proto.mutable_source()->set_faces(source_faces);
-    std::visit([&](const auto& o) { set_options(o, proto); }, figures.options);
+    set_request(source_representation, source_faces, figures.options, proto);
+    proto.set_mode(to_proto(mode_of(figures.options)));
     proto.set_faces_min(extent.faces_min);
     proto.set_faces_max(extent.faces_max);
     proto.set_faces(figures.faces);
@@ -67,6 +78,13 @@ v1::Representation describe(const std::string& id, const std::string& source_rep
     for (const Slivers& slivers : figures.slivers) *proto.add_slivers() = to_proto(slivers);
     *proto.mutable_records() = count_records(extent);
     *proto.mutable_elapsed() = to_duration(figures.elapsed);
+    return proto;
+}
+
+v1::InterruptedMethod describe_interrupted(const std::string& source_representation, std::uint32_t source_faces,
+                                           const MethodOptions& options) {
+    v1::InterruptedMethod proto;
+    set_request(source_representation, source_faces, options, proto);
     return proto;
 }
 

@@ -13,6 +13,10 @@ namespace vsplit::wire {
 [[nodiscard]] v1::Representation describe(const std::string& id, const std::string& source_representation,
                                           std::uint32_t source_faces, const MethodFigures& figures, const MrrExtent& extent);
 
+/// The message about a method that the end of a server cut off. O(size of the options).
+[[nodiscard]] v1::InterruptedMethod describe_interrupted(const std::string& source_representation, std::uint32_t source_faces,
+                                                         const MethodOptions& options);
+
 /// Moves the figures of a Representation to another of its resolutions, whose mesh is given: faces, quality, and, for CONTROL,
 /// what breaks its bounds there. What the method said of a bound stays its reason; what takes the source to tell, deviations and
 /// slivers, goes. O(faces log faces).

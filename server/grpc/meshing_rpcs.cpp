@@ -46,6 +46,14 @@ Status create_session(service::MeshingService& service, const service::Caller& c
     return Done{};
 }
 
+/// A use of the session, as whatever finds it.
+Status show_session(service::MeshingService& service, const service::Caller& caller, const std::string& id, v1::Session& response) {
+    const Expected<service::SessionSnapshot> session = service.snapshot(id, caller);
+    if (!session) return session.error();
+    response = to_proto(*session);
+    return Done{};
+}
+
 Status list_sessions(service::MeshingService& service, const service::Caller& caller, const v1::ListSessionsRequest& request,
                      v1::ListSessionsResponse& response) {
     Expected<service::SessionPage> page = service.sessions().list(request.page_size(), request.page_token(), caller.owner);
@@ -131,11 +139,15 @@ grpc::ServerReadReactor<v1::UploadMeshRequest>* MeshingRpcs::UploadMesh(Context*
 
 grpc::ServerUnaryReactor* MeshingRpcs::GetSession(Context* context, const v1::GetSessionRequest* request, v1::Session* response) {
     return answer_now(context, RpcWatch(ledger_, *context, "GetSession", request->session()),
-                      [this, request, response](const service::Caller& caller) -> Status {
-                          const Expected<service::SessionSnapshot> session = service_.snapshot(request->session(), caller);
-                          if (!session) return session.error();
-                          *response = to_proto(*session);
-                          return Done{};
+                      [this, request, response](const service::Caller& caller) {
+                          return show_session(service_, caller, request->session(), *response);
+                      });
+}
+
+grpc::ServerUnaryReactor* MeshingRpcs::KeepAlive(Context* context, const v1::KeepAliveRequest* request, v1::Session* response) {
+    return answer_now(context, RpcWatch(ledger_, *context, "KeepAlive", request->session()),
+                      [this, request, response](const service::Caller& caller) {
+                          return show_session(service_, caller, request->session(), *response);
                       });
 }
 

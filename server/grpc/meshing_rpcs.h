@@ -25,6 +25,7 @@ public:
     UnaryReactor* GetSession(Context* context, const v1::GetSessionRequest* request, v1::Session* response) override;
     UnaryReactor* ListSessions(Context* context, const v1::ListSessionsRequest* request,
                                v1::ListSessionsResponse* response) override;
+    UnaryReactor* KeepAlive(Context* context, const v1::KeepAliveRequest* request, v1::Session* response) override;
     UnaryReactor* DeleteSession(Context* context, const v1::DeleteSessionRequest* request,
                                 google::protobuf::Empty* response) override;
     EventReactor* Improve(Context* context, const v1::ImproveRequest* request) override;

@@ -36,6 +36,9 @@ v1::Session to_proto(const service::SessionSnapshot& session) {
         entry = to_proto(*representation);
         shorten_violations(entry);
     }
+    for (const service::MethodRequest& method : session.interrupted) {
+        *proto.add_interrupted() = wire::describe_interrupted(method.source.representation, method.source.faces, method.options);
+    }
     return proto;
 }
 

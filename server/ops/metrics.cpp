@@ -54,6 +54,12 @@ Metrics::Metrics()
       sessions_(gauge(registry_, "vsplit_sessions", "Sessions that are held")),
       methods_running_(gauge(registry_, "vsplit_jobs_running", "Methods that a worker is at")),
       methods_waiting_(gauge(registry_, "vsplit_jobs_queued", "Methods that wait")),
+      memory_(gauge(registry_, "vsplit_memory_bytes", "Memory of meshes, representations and methods, as estimated")),
+      memory_limit_(gauge(registry_, "vsplit_memory_limit_bytes", "What they may take together, --max-memory-bytes")),
+      evictions_(counters(registry_, "vsplit_evictions_total", "Meshes and representations that left memory for others").Add({})),
+      disk_(gauge(registry_, "vsplit_disk_bytes", "Meshes and representations in the data directory")),
+      disk_limit_(gauge(registry_, "vsplit_disk_limit_bytes", "What they may take together, --max-disk-bytes; 0: no limit")),
+      set_aside_(gauge(registry_, "vsplit_sessions_set_aside", "Sessions in the data directory that are damaged and not served")),
       resident_(gauge(registry_, "process_resident_memory_bytes", "Memory of the process that is in RAM")),
       descriptors_(gauge(registry_, "process_open_fds", "Open file descriptors")),
       most_descriptors_(gauge(registry_, "process_max_fds", "Most open file descriptors")),
@@ -95,9 +101,16 @@ void Metrics::job_ended(const service::JobRecord& record) {
 }
 
 std::string Metrics::text(const service::ServiceLoad& load) {
+    const std::lock_guard lock(scraping_);
     sessions_.Set(static_cast<double>(load.sessions));
     methods_running_.Set(static_cast<double>(load.methods_running));
     methods_waiting_.Set(static_cast<double>(load.methods_waiting));
+    memory_.Set(static_cast<double>(load.memory.bytes));
+    memory_limit_.Set(static_cast<double>(load.memory.limit));
+    evictions_.Increment(static_cast<double>(load.memory.evictions) - evictions_.Value());
+    disk_.Set(static_cast<double>(load.archive.bytes));
+    disk_limit_.Set(static_cast<double>(load.archive.limit));
+    set_aside_.Set(static_cast<double>(load.archive.set_aside));
     const ProcessUse use = process_use();
     resident_.Set(static_cast<double>(use.resident_bytes));
     descriptors_.Set(static_cast<double>(use.descriptors));

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -22,7 +23,8 @@ namespace vsplit::ops {
 /// vsplit_rpc_seconds (histogram by method) and vsplit_rpcs_total (by method and code) count an rpc once, whichever door it came
 /// by; vsplit_message_bytes_total (by direction) its messages. vsplit_http_requests_total (by status) and vsplit_http_bytes_total
 /// (bodies, by direction) are HTTP's own. vsplit_jobs_total (by method and outcome), vsplit_job_seconds, vsplit_job_wait_seconds
-/// and vsplit_job_faces_total (by method) are of methods that a worker was at. process_* are those that Prometheus' clients have.
+/// and vsplit_job_faces_total (by method) are of methods that a worker was at. vsplit_memory_bytes and
+/// vsplit_evictions_total are of the budget of memory, vsplit_disk_bytes and vsplit_sessions_set_aside of the data directory. process_* are those that Prometheus' clients have.
 class Metrics final : public rpc::RpcMeter {
 public:
     Metrics();
@@ -38,6 +40,7 @@ public:
     [[nodiscard]] std::string text(const service::ServiceLoad& load);
 
 private:
+    std::mutex scraping_;  // one scrape moves the counters that are read off elsewhere at a time
     prometheus::Registry registry_;
     prometheus::Family<prometheus::Counter>& rpcs_;
     prometheus::Family<prometheus::Histogram>& seconds_;
@@ -54,6 +57,12 @@ private:
     prometheus::Gauge& sessions_;
     prometheus::Gauge& methods_running_;
     prometheus::Gauge& methods_waiting_;
+    prometheus::Gauge& memory_;
+    prometheus::Gauge& memory_limit_;
+    prometheus::Counter& evictions_;
+    prometheus::Gauge& disk_;
+    prometheus::Gauge& disk_limit_;
+    prometheus::Gauge& set_aside_;
     prometheus::Gauge& resident_;
     prometheus::Gauge& descriptors_;
     prometheus::Gauge& most_descriptors_;

@@ -117,6 +117,7 @@ private:
         add("--max-representations", limits.representations, "Representations of a session");
         app_.add_option("--max-waiting", limits.waiting_jobs, "Requests that wait in a session while one runs")->group(kGroup);
         add("--max-queued", limits.queued_jobs, "Requests that wait in all sessions together");
+        add("--max-job-seconds", limits.job_seconds, "Seconds that one method runs");
         app_.add_option("--max-memory-bytes", limits.memory_bytes,
                         "Bytes of meshes, representations and methods in memory; 0: three quarters of what there is")
             ->group(kGroup);

@@ -9,6 +9,14 @@
 #include "vsplit/method/improve.h"
 
 namespace vsplit::service {
+namespace {
+
+Error too_long(std::uint32_t seconds) {
+    return {Cause::kLimitExceeded,
+            "the method ran for " + std::to_string(seconds) + " s, the server's limit max_job_seconds; ask for less", ""};
+}
+
+}  // namespace
 
 MethodJob::MethodJob(std::shared_ptr<Session> session, PickedMesh source, MethodRequest request, const MethodHost& host,
                      std::shared_ptr<JobNote> note, JobEvents events, const Caller& caller)
@@ -23,6 +31,7 @@ MethodJob::MethodJob(std::shared_ptr<Session> session, PickedMesh source, Method
 
 Job::Report MethodJob::run() {
     const auto began = std::chrono::steady_clock::now();
+    until_ = began + std::chrono::seconds(host_.options.limits.job_seconds);
     JobOutcome outcome = guarded([this] { return compute(); });
     if (const std::optional<Error> why = stopped(); why && !outcome) outcome = *why;
     room_.give_back();
@@ -121,6 +130,7 @@ std::optional<Error> MethodJob::stopped() const {
 }
 
 void MethodJob::tell(const Progress& progress) {
+    if (std::chrono::steady_clock::now() > until_) stop(too_long(host_.options.limits.job_seconds));
     if (gate_.open(progress.stage, ProgressGate::Clock::now())) events_.on_progress(progress);
 }
 

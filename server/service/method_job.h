@@ -69,6 +69,7 @@ private:
     const std::shared_ptr<JobNote> note_;
     const std::string request_id_;
     const std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point until_;  // of the run
     ProgressGate gate_;
     ExecutionContext context_;
     MemoryBudget::Share room_;        // while it runs

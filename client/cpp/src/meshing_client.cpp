@@ -86,6 +86,12 @@ Expected<v1::ListSessionsResponse> MeshingClient::list_sessions(const v1::ListSe
     return impl_->unary(&v1::Meshing::Stub::ListSessions, request, call);
 }
 
+Expected<v1::Session> MeshingClient::keep_alive(const std::string& session, const CallOptions& call) {
+    v1::KeepAliveRequest request;
+    request.set_session(session);
+    return impl_->unary(&v1::Meshing::Stub::KeepAlive, request, call);
+}
+
 Status MeshingClient::delete_session(const std::string& session, const CallOptions& call) {
     v1::DeleteSessionRequest request;
     request.set_session(session);

@@ -82,6 +82,10 @@ class Client:
         """Takes features off the session's mesh; a RemoveFeaturesResponse. `options`: `max_diameter`, `angle`."""
         return self._stub.RemoveFeatures(v1.RemoveFeaturesRequest(session=session, ids=ids, **options))
 
+    def keep_alive(self, session):
+        """Puts off when the session expires; a Session, which says until when."""
+        return self._stub.KeepAlive(v1.KeepAliveRequest(session=session))
+
     def delete(self, session):
         self._stub.DeleteSession(v1.DeleteSessionRequest(session=session))
 

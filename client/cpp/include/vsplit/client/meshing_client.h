@@ -57,6 +57,8 @@ public:
     [[nodiscard]] Expected<v1::ListSessionsResponse> list_sessions(const v1::ListSessionsRequest& request = {},
                                                                    const CallOptions& call = {});
 
+    /// Puts off when the session expires.
+    [[nodiscard]] Expected<v1::Session> keep_alive(const std::string& session, const CallOptions& call = {});
     [[nodiscard]] Status delete_session(const std::string& session, const CallOptions& call = {});
 
     [[nodiscard]] Expected<v1::Representation> improve(const v1::ImproveRequest& request, const EventHandlers& handlers = {},
