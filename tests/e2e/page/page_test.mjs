@@ -98,7 +98,7 @@ const steps = {
   async "down and up, within what is held and beyond"({ page, address }) {
     for (const share of [0.2, 0.05, 0, 0.4, 0.8, 1, 0.5]) {
       await slide(page, share);
-            await settled(page);
+      await settled(page);
       await agrees(page, address);
     }
   },
@@ -106,7 +106,7 @@ const steps = {
   async "a step of the slider sends faces, not the mesh"({ page }) {
     const before = (await shownOn(page)).result;
     await slide(page, 0.503);
-        await settled(page);
+    await settled(page);
     const after = (await shownOn(page)).result;
     assert.notEqual(after, before);
     const records = Number(/^(\d+) records/.exec(await page.getAttribute("#canvas", "data-step"))[1]);
@@ -129,6 +129,24 @@ const steps = {
     await page.focus("#canvas");
     await page.keyboard.press("f");
     await page.keyboard.press("ArrowLeft");
+  },
+
+  async "coloured by size, the legend is true of every face of input and result"({ page }) {
+    await page.selectOption("#colour", "size");
+    const before = await page.$eval("#faces", (slider) => Number(slider.value) / 1000);
+    for (const share of [0, before]) {
+      await slide(page, share);
+      await settled(page);
+      // What is told in three digits may be a little beyond.
+      const sizes = await page.$$eval(".spread tbody tr:nth-child(2) td", (cells) => cells.map((cell) => cell.textContent.split(" / ").map(Number)));
+      const [low, high] = await page.$$eval("#legend span:not(.hint):not(.bar):not(.bar *)", (ends) => ends.map((end) => Number(end.textContent)));
+      assert.equal(sizes.length, 2);
+      for (const [least, , largest] of sizes) assert.ok(low <= least * 1.01 && largest <= high * 1.01, `${low} to ${high} for ${least} to ${largest}`);
+      assert.ok(low * 2.01 >= Math.min(...sizes.map(([least]) => least)) && high <= 2.01 * Math.max(...sizes.map(([, , largest]) => largest)), `${low} to ${high} for ${sizes.join(" and ")}`);
+    }
+    await page.selectOption("#colour", "valence");
+    assert.match(await page.textContent("#legend"), /≤ 3.*≥ 12/);
+    await page.selectOption("#colour", "stretch");
   },
 
   async "a download is the mesh that is shown"({ page, address }) {
@@ -175,7 +193,7 @@ const steps = {
     const shown = await agrees(page, address);
     for (const share of [0.1, 1, 0.6]) {
       await slide(page, share);
-            await settled(page);
+      await settled(page);
       await agrees(page, address);
     }
     assert.equal(shown.source, 1102);

@@ -5,6 +5,7 @@ import { Problem, problemText } from "../shared/problem";
 import type { Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
 import { getQuality, getSession, meshPath } from "./api";
 import { readPlace, writePlace } from "./address";
+import { Colouring } from "./colouring";
 import { count, find } from "./dom";
 import { legend } from "./legend";
 import { findingList, resultNotes, worstList } from "./lists";
@@ -34,7 +35,7 @@ export class Workbench {
   private diagonal = 1;
   private readonly figures: Partial<Record<Slot, Figures>> = {};
   private fresh = false;
-  private by: ColourBy = "stretch";
+  private readonly colouring = new Colouring(() => this.recolour());
   private source = this.worker("source");
   private result = this.worker("result");
   private readonly progress = new ProgressBar(workPlace(), () => this.result.tell({ kind: "cancel" }));
@@ -69,8 +70,8 @@ export class Workbench {
     this.result.end();
     this.source = this.worker("source");
     this.result = this.worker("result");
-    for (const worker of [this.source, this.result]) worker.tell({ kind: "colour", by: this.by });
     this.session = session;
+    this.colouring.clear();
     this.name = name;
     this.made = undefined;
     delete this.figures.source;
@@ -106,14 +107,18 @@ export class Workbench {
   }
 
   colour(by: ColourBy): void {
-    this.by = by;
-    this.source.tell({ kind: "colour", by });
-    this.result.tell({ kind: "colour", by });
+    this.colouring.choose(by);
   }
 
   /** Where the mesh that is shown can be had as a file. */
   file(format: string): string | undefined {
     return this.session ? meshPath(this.session.id, this.made?.id ?? "", this.faces, format) : undefined;
+  }
+
+  private recolour(): void {
+    const { by, range } = this.colouring;
+    for (const worker of [this.source, this.result]) worker.tell({ kind: "colour", by, range });
+    if (this.session) find("legend").replaceChildren(legend(by, range));
   }
 
   private order(order: Order): void {
@@ -132,6 +137,7 @@ export class Workbench {
   private hear(slot: Slot, news: News): void {
     switch (news.kind) {
       case "patch":
+        this.colouring.take(slot, news.patch);
         if (slot === "source") {
           this.viewer.apply(slot, news.patch);
         } else {
@@ -143,8 +149,8 @@ export class Workbench {
         return;
       case "figures":
         this.figures[slot] = news.figures;
+        this.colouring.measured(slot, news.figures.sizes);
         this.showQuality();
-        if (slot === "result" || !this.made) find("legend").replaceChildren(legend(this.by, news.range));
         if (slot === "result" && this.made) this.settle();
         return;
       case "progress":

@@ -1,4 +1,4 @@
-import type { ColourBy } from "./colours";
+import type { ColourBy, Range } from "./colours";
 
 /** What went wrong, as problem+json tells it. */
 export interface ProblemText {
@@ -25,6 +25,8 @@ export interface Figures {
   histogram: number[];
   /** Of faces: stretch, and longest edge; of vertices: edges. */
   spread: { stretch: Spread; size: Spread; valence: Spread };
+  /** Longest edges of faces: the least above 0, and the largest. */
+  sizes: Range;
 }
 
 /** Faces to draw anew: runs of them, and the bytes of all runs one after the other. Three corners a face, no index. */
@@ -37,6 +39,8 @@ export interface Patch {
   positions: Float32Array;
   /** 9 bytes a face. */
   colours: Uint8Array;
+  /** Longest edges of the faces of these runs: the least above 0, and the largest. */
+  sizes: Range;
   /** Faces that are seen. */
   visible: number;
   /** Milliseconds that the worker took, and the records it applied or undid. */
@@ -50,7 +54,7 @@ export type Order =
   | { kind: "method"; path: string; body: object; centre: Point }
   | { kind: "open"; session: string; representation: string; faces: number; centre: Point }
   | { kind: "faces"; faces: number }
-  | { kind: "colour"; by: ColourBy }
+  | { kind: "colour"; by: ColourBy; range: Range }
   | { kind: "token"; token: string }
   | { kind: "cancel" };
 
@@ -58,7 +62,7 @@ export type Order =
 export type News =
   | { kind: "progress"; stage: string; fraction: number; faces: number }
   | { kind: "patch"; patch: Patch }
-  | { kind: "figures"; figures: Figures; range: readonly [number, number] }
+  | { kind: "figures"; figures: Figures }
   | { kind: "representation"; json: unknown }
   | { kind: "problem"; problem: ProblemText }
   | { kind: "idle" };
