@@ -88,6 +88,40 @@ const steps = {
     await page.fill("#improve-minStretch", "");
   },
 
+  async "what is no number, or no whole one, is refused at its field, also a folded one"({ page }) {
+    let sent = 0;
+    const count = (request) => (sent += request.method() === "POST" ? 1 : 0);
+    page.on("request", count);
+    const refused = async (id, typed, words, press) => {
+      const field = page.locator(id);
+      await field.evaluate((one) => {
+        one.value = "";
+        one.closest("details")?.setAttribute("open", "");
+      });
+      await field.pressSequentially(typed);
+      await field.evaluate((one) => one.closest("details")?.removeAttribute("open"));
+      await press();
+      await page.waitForSelector(`${id}[aria-invalid]`);
+      assert.match(await page.textContent("#problems"), words);
+      assert.ok(await field.isVisible());
+      assert.ok(await field.evaluate((one) => one === document.activeElement));
+      await field.evaluate((one) => {
+        one.value = "";
+        one.dispatchEvent(new Event("input"));
+      });
+      assert.equal(await field.getAttribute("aria-invalid"), null);
+    };
+    const improve = () => page.click("#improve button[type=submit]");
+    await refused("#improve-facesMin", "1.5", /Faces min: 1.5 is not accepted; accepted is a whole number from 0 to 4294967295/, improve);
+    await refused("#improve-faces", "-5", /Faces: -5 is not accepted/, improve);
+    await refused("#improve-faces", "1e30", /Faces: 1e30 is not accepted/, improve);
+    await refused("#improve-featureAngle", "4e", /Feature angle: this is no number/, improve);
+    await refused("#weld", "1e", /Weld: this is no number/, () => page.setInputFiles("#file", join(data, "bracket.stl")));
+    assert.equal(sent, 0);
+    page.off("request", count);
+    await page.click("#problems button");
+  },
+
   async "improve, and what is drawn is what the server made"({ page, address }) {
     await run(page, "improve", { subdivisionSize: 4, tolerance: 0.2, faces: 12000 });
     await settled(page);
@@ -182,6 +216,62 @@ const steps = {
     await page.waitForSelector("#problems p");
     assert.match(await page.textContent("#problems"), /^CANCELLED/);
     await run(page, "improve", { subdivisionSize: 8, tolerance: 0.2, faces: 6000 });
+    await settled(page);
+    await agrees(page, address);
+  },
+
+  async "by keyboard alone, the focus is never lost"({ page, address }) {
+    const focused = () => page.evaluate(() => document.activeElement.closest("[id]").id + " " + document.activeElement.textContent);
+    await page.evaluate(() => {
+      window.lost = 0;
+      const look = () => {
+        if (document.activeElement === document.body) ++window.lost;
+        if (window.lost >= 0) requestAnimationFrame(look);
+      };
+      document.getElementById("canvas").focus();
+      look();
+    });
+    await page.focus("#improve button[type=submit]");
+    await page.keyboard.press("Enter");
+    assert.equal(await page.getAttribute("#improve button[type=submit]", "aria-disabled"), "true");
+    assert.equal(await focused(), "improve Improve");
+    await settled(page);
+    assert.equal(await focused(), "improve Improve");
+    await page.fill("#improve-faces", "300000");
+    await page.fill("#improve-subdivisionSize", "0.9");
+    await page.keyboard.press("Enter");
+    await page.focus("#work .progress button");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector("#problems p");
+    await page.waitForSelector("#work .progress", { state: "detached" });
+    assert.equal(await focused(), "improve Improve");
+    await page.focus("#problems button");
+    await page.keyboard.press("Enter");
+    assert.equal(await focused(), "improve Improve");
+    await page.fill("#improve-faces", "6000");
+    await page.fill("#improve-subdivisionSize", "8");
+    // A list that is made anew while one is in it.
+    await page.focus("#worst li:nth-child(3) button");
+    const before = await page.textContent("#worst li:first-child");
+    await slide(page, 0.4);
+    await page.waitForFunction((text) => document.querySelector("#worst li").textContent !== text, before);
+    assert.match(await focused(), /^worst face /);
+    // An upload that is given up.
+    await page.route("**/v1/sessions?*", () => undefined);
+    await page.focus("#samples button");
+    await page.keyboard.press("Enter");
+    await page.focus("#upload .progress button");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector("#upload .progress", { state: "detached" });
+    assert.match(await focused(), /^file /);
+    await page.unroute("**/v1/sessions?*");
+    await page.focus("#canvas");
+    assert.equal(await page.getAttribute("#canvas", "role"), "application");
+    const drawn = await page.locator("#canvas canvas").screenshot();
+    await page.keyboard.press("ArrowLeft");
+    await page.waitForTimeout(300);
+    assert.notDeepEqual(await page.locator("#canvas canvas").screenshot(), drawn);
+    assert.equal(await page.evaluate(() => [window.lost, (window.lost = -1)][0]), 0);
     await settled(page);
     await agrees(page, address);
   },

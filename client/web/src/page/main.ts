@@ -1,10 +1,11 @@
 import type { ColourBy } from "../shared/colours";
 import { Problem, problemOf, problemText } from "../shared/problem";
 import { upload } from "./api";
-import { element, find } from "./dom";
+import { element, find, passFocus } from "./dom";
 import { fetchFile } from "./download";
 import { MethodForm } from "./form";
-import { hideProblem, showProblem } from "./problems";
+import { check, clear, pointAt } from "./number_field";
+import { hideProblem, showProblem, startProblems } from "./problems";
 import { ProgressBar } from "./progress";
 import { formatsOf, methodOptions, type Contract } from "./schema";
 import { startTheme } from "./theme";
@@ -34,18 +35,24 @@ let sending: AbortController | undefined;
 
 /** Uploads a mesh; one that is still on its way gives way to it. */
 async function send(file: Blob, name: string): Promise<void> {
+  const weld = find<HTMLInputElement>("weld");
+  clear(weld);
+  if (!check(weld, "Weld")) return;
   hideProblem();
   sending?.abort();
   const stop = (sending = new AbortController());
   for (const form of forms) form.enabled = false;
-  const progress = new ProgressBar(find("upload"), () => stop.abort());
+  const progress = new ProgressBar(find("upload"), () => find("file"), () => stop.abort());
   progress.show("upload", 0);
   try {
-    const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(find<HTMLInputElement>("weld").value) || 0 };
+    const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(weld.value) };
     const session = await upload(file, options, (share) => progress.show(share < 1 ? "upload" : "inspect", share), stop.signal);
     if (sending === stop) bench.open(session, name);
   } catch (error) {
-    if (sending === stop) showProblem(problemText(error));
+    if (sending !== stop) return;
+    const problem = problemText(error);
+    showProblem(problem);
+    if (problem.field === "weld") pointAt(weld);
   } finally {
     progress.hide();
     if (sending === stop) for (const form of forms) form.enabled = bench.ready;
@@ -97,6 +104,7 @@ function startTools(): void {
   find("fit").addEventListener("click", () => viewer.fit());
   const axis = find<HTMLSelectElement>("cut-axis"), share = find<HTMLInputElement>("cut");
   const cut = (): void => {
+    if (axis.value === "") passFocus(share, axis);
     share.disabled = axis.value === "";
     viewer.cut(axis.value === "" ? undefined : Number(axis.value), Number(share.value));
   };
@@ -118,7 +126,7 @@ async function startForms(): Promise<void> {
     const title = verb === "improve" ? "Improve" : "Control";
     const form: MethodForm = new MethodForm(find<HTMLFormElement>(verb), title, methodOptions(contract, `${title}Options`), (options) => {
       hideProblem();
-      for (const other of forms) other.blame(undefined);
+      for (const other of forms) if (other !== form) other.blame(undefined);
       started = form;
       bench.run(verb, options);
     });
@@ -144,6 +152,7 @@ startToken(() => {
   reopen();
 });
 startTheme((background) => viewer.background(background));
+startProblems();
 startUpload();
 startTools();
 startForms()

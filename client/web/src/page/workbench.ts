@@ -6,7 +6,7 @@ import type { Figures, News, Order, Patch, Point, ProblemText } from "../shared/
 import { getQuality, getSession, meshPath } from "./api";
 import { readPlace, writePlace } from "./address";
 import { Colouring } from "./colouring";
-import { count, find } from "./dom";
+import { count, find, refill } from "./dom";
 import { legend } from "./legend";
 import { findingList, resultNotes, worstList } from "./lists";
 import { MeshWorker } from "./mesh_worker";
@@ -17,6 +17,9 @@ import { ResolutionSlider } from "./resolution";
 import type { Slot, Viewer } from "./viewer";
 
 const worstFaces = 20;
+
+export type Verb = "improve" | "control";
+const runButton = (verb: Verb): HTMLElement => find(verb).querySelector<HTMLElement>("button[type=submit]")!;
 
 /** For measurements: what the last change of resolution took. */
 function stepText(patch: Patch): string {
@@ -35,10 +38,11 @@ export class Workbench {
   private diagonal = 1;
   private readonly figures: Partial<Record<Slot, Figures>> = {};
   private fresh = false;
+  private verb: Verb = "improve";
   private readonly colouring = new Colouring(() => this.recolour());
   private source = this.worker("source");
   private result = this.worker("result");
-  private readonly progress = new ProgressBar(workPlace(), () => this.result.tell({ kind: "cancel" }));
+  private readonly progress = new ProgressBar(workPlace(), () => runButton(this.verb), () => this.result.tell({ kind: "cancel" }));
   private readonly slider = new ResolutionSlider((faces) => this.order({ kind: "faces", faces }));
 
   /** `changed`: when methods can be run or not. */
@@ -95,8 +99,9 @@ export class Workbench {
     this.changed(true);
   }
 
-  run(verb: "improve" | "control", options: object): void {
+  run(verb: Verb, options: object): void {
     if (!this.session) return;
+    this.verb = verb;
     const body: Record<string, unknown> = { options };
     // Control is for meshes that were improved; improve begins anew.
     if (verb === "control" && this.made) body["source"] = { representation: this.made.id, faces: this.faces };
@@ -206,7 +211,7 @@ export class Workbench {
     try {
       const quality = await getQuality(session, made, faces, worstFaces);
       if (session !== this.session?.id || made !== (this.made?.id ?? "") || (made && faces !== this.faces)) return;
-      find("worst").replaceChildren(worstList(quality.worstFaces, (place, size) => this.fly(made ? "result" : "source", place, size)));
+      refill(find("worst"), worstList(quality.worstFaces, (place, size) => this.fly(made ? "result" : "source", place, size)));
     } catch (error) {
       showProblem(problemText(error));
     }
@@ -225,7 +230,7 @@ export class Workbench {
   private showNotes(): void {
     const findings = findingList(this.session?.source?.findings ?? [], this.diagonal / 100, (place, size) => this.fly("source", place, size));
     const notes = [...(this.made ? resultNotes(this.made, this.at) : []), ...findings];
-    find("notes").replaceChildren(...(notes.length > 0 ? notes : ["Nothing to report."]));
+    refill(find("notes"), ...(notes.length > 0 ? notes : ["Nothing to report."]));
   }
 
   private showSummary(): void {
