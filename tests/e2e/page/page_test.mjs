@@ -1,10 +1,10 @@
 // page_test.mjs VSPLITD VSPLIT DATA: the page as people use it, against what the server says of the same meshes.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { openPage, run, settled, shownOn, slide, startServer, upload } from "./browser.mjs";
+import { openPage, run, settled, shownOn, slide, startServer, takeSample, upload } from "./browser.mjs";
 
 const [vsplitd, vsplit, data] = process.argv.slice(2);
 const place = mkdtempSync(join(tmpdir(), "vsplit-page-"));
@@ -274,6 +274,45 @@ const steps = {
     assert.equal(await page.evaluate(() => [window.lost, (window.lost = -1)][0]), 0);
     await settled(page);
     await agrees(page, address);
+  },
+
+  async "another session in the address is opened, and the one before stays"({ page, address }) {
+    const before = await shownOn(page);
+    const status = async (id) => (await fetch(`${address}/v1/sessions/${id}`)).status;
+    const name = (id) => page.evaluate((text) => (location.hash = text), `session=${id}`);
+    const { id } = await (await fetch(`${address}/v1/sessions`, { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body: readFileSync(openMesh()) })).json();
+    await name(id);
+    await page.waitForFunction(() => document.getElementById("canvas").dataset.source === "1102");
+    assert.equal((await shownOn(page)).session, id);
+    assert.equal(await status(before.session), 200);
+    await name("nothing");
+    await page.waitForSelector("#problems p");
+    assert.match(await page.textContent("#problems"), /^NOT_FOUND/);
+    assert.ok(await page.isEnabled("#improve button[type=submit]"));
+    await page.goBack();
+    await page.goBack();
+    await page.waitForFunction((faces) => Number(document.getElementById("canvas").dataset.result) === faces, before.result);
+    await settled(page);
+    assert.deepEqual(await agrees(page, address), before);
+    assert.equal(await page.locator("#problems p").count(), 0);
+  },
+
+  async "a double click on a sample uploads once, and what was there before is deleted"({ page, address }) {
+    const before = await shownOn(page);
+    const posted = [];
+    const note = (request) => request.method() === "POST" && posted.push(request.url());
+    page.on("request", note);
+    await takeSample(page, "scan.ply");
+    await page.waitForTimeout(500);
+    page.off("request", note);
+    assert.equal(posted.length, 1, posted.join("\n"));
+    assert.equal((await fetch(`${address}/v1/sessions/${before.session}`)).status, 404);
+    const { session } = await shownOn(page);
+    await page.reload();
+    await page.waitForFunction(() => document.getElementById("canvas").dataset.source);
+    assert.equal((await shownOn(page)).session, session);
+    assert.equal((await fetch(`${address}/v1/sessions/${session}`)).status, 200);
+    assert.equal(await page.locator("#problems p").count(), 0);
   },
 
   async "open boundaries: nothing that closes them is drawn"({ page, address }) {

@@ -1,5 +1,6 @@
 import type { ColourBy } from "../shared/colours";
 import { Problem, problemOf, problemText } from "../shared/problem";
+import { readPlace } from "./address";
 import { upload } from "./api";
 import { element, find, passFocus } from "./dom";
 import { fetchFile } from "./download";
@@ -19,7 +20,7 @@ const viewer = new Viewer(find("canvas"));
 const forms: MethodForm[] = [];
 let started: MethodForm | undefined;
 const bench = new Workbench(viewer, (ready, problem) => {
-  for (const form of forms) form.enabled = ready;
+  for (const form of forms) form.enabled = ready && sending === undefined;
   if (problem?.field) started?.blame(problem.field);
   updateDownload();
 });
@@ -33,21 +34,30 @@ function updateDownload(): void {
 
 let sending: AbortController | undefined;
 
+function giveUpSending(): void {
+  sending?.abort();
+  sending = undefined;
+}
+
+function enableForms(): void {
+  for (const form of forms) form.enabled = bench.ready && sending === undefined;
+}
+
 /** Uploads a mesh; one that is still on its way gives way to it. */
-async function send(file: Blob, name: string): Promise<void> {
+async function send(get: (signal: AbortSignal) => Promise<Blob>, name: string): Promise<void> {
   const weld = find<HTMLInputElement>("weld");
   clear(weld);
   if (!check(weld, "Weld")) return;
   hideProblem();
-  sending?.abort();
+  giveUpSending();
   const stop = (sending = new AbortController());
-  for (const form of forms) form.enabled = false;
+  enableForms();
   const progress = new ProgressBar(find("upload"), () => find("file"), () => stop.abort());
   progress.show("upload", 0);
   try {
     const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(weld.value) };
-    const session = await upload(file, options, (share) => progress.show(share < 1 ? "upload" : "inspect", share), stop.signal);
-    if (sending === stop) bench.open(session, name);
+    const session = await upload(await get(stop.signal), options, (share) => progress.show(share < 1 ? "upload" : "inspect", share), stop.signal);
+    if (sending === stop) bench.replace(session, name);
   } catch (error) {
     if (sending !== stop) return;
     const problem = problemText(error);
@@ -55,21 +65,38 @@ async function send(file: Blob, name: string): Promise<void> {
     if (problem.field === "weld") pointAt(weld);
   } finally {
     progress.hide();
-    if (sending === stop) for (const form of forms) form.enabled = bench.ready;
+    if (sending === stop) sending = undefined;
+    enableForms();
   }
 }
 
-async function fetchSample(name: string): Promise<void> {
-  const response = await fetch(`samples/${name}`);
+async function fetchSample(name: string, signal: AbortSignal): Promise<Blob> {
+  const response = await fetch(`samples/${name}`, { signal });
   if (!response.ok) throw new Problem({ cause: "NOT_FOUND", detail: `the server has no sample ${name}` });
-  await send(await response.blob(), name);
+  return response.blob();
+}
+
+function startSamples(): void {
+  let coming: string | undefined;
+  for (const name of samples) {
+    const button = element("button", { type: "button", class: "quiet" }, name);
+    button.addEventListener("click", (event) => {
+      // Two clicks in a row ask once.
+      if (event.detail > 1 || coming === name) return;
+      coming = name;
+      void send((signal) => fetchSample(name, signal), name).finally(() => {
+        if (coming === name) coming = undefined;
+      });
+    });
+    find("samples").append(button);
+  }
 }
 
 function startUpload(): void {
   const input = find<HTMLInputElement>("file");
   const take = (files: FileList | null | undefined): void => {
     const file = files?.[0];
-    if (file) void send(file, file.name);
+    if (file) void send(() => Promise.resolve(file), file.name);
   };
   input.addEventListener("change", () => {
     take(input.files);
@@ -88,13 +115,6 @@ function startUpload(): void {
     body.classList.remove("dragging");
     take(event.dataTransfer?.files);
   });
-  for (const name of samples) {
-    const button = element("button", { type: "button", class: "quiet" }, name);
-    button.addEventListener("click", () => {
-      fetchSample(name).catch((error: unknown) => showProblem(problemText(error)));
-    });
-    find("samples").append(button);
-  }
 }
 
 function startTools(): void {
@@ -135,7 +155,7 @@ async function startForms(): Promise<void> {
   const format = find<HTMLSelectElement>("format");
   for (const name of formatsOf(contract)) format.append(element("option", { value: name }, name.toLowerCase().replace(/_/g, " ")));
   format.addEventListener("change", updateDownload);
-  for (const form of forms) form.enabled = bench.ready;
+  enableForms();
   find("download").addEventListener("click", (event) => {
     const path = bench.file(format.value);
     event.preventDefault();
@@ -144,7 +164,11 @@ async function startForms(): Promise<void> {
 }
 
 function reopen(): void {
-  bench.reopen().catch((error: unknown) => showProblem(problemText(error)));
+  giveUpSending();
+  bench
+    .reopen()
+    .catch((error: unknown) => showProblem(problemText(error)))
+    .finally(enableForms);
 }
 
 startToken(() => {
@@ -152,8 +176,14 @@ startToken(() => {
   reopen();
 });
 startTheme((background) => viewer.background(background));
+addEventListener("hashchange", () => {
+  if (bench.isAt(readPlace())) return;
+  hideProblem();
+  reopen();
+});
 startProblems();
 startUpload();
+startSamples();
 startTools();
 startForms()
   .then(reopen)

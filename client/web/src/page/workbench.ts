@@ -3,8 +3,8 @@ import { RepresentationSchema, type Representation, type Session } from "../gen/
 import type { ColourBy } from "../shared/colours";
 import { Problem, problemText } from "../shared/problem";
 import type { Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
-import { getQuality, getSession, meshPath } from "./api";
-import { readPlace, writePlace } from "./address";
+import { readPlace, writePlace, type Place } from "./address";
+import { deleteSession, getQuality, getSession, meshPath } from "./api";
 import { Colouring } from "./colouring";
 import { count, find, refill } from "./dom";
 import { legend } from "./legend";
@@ -48,8 +48,14 @@ export class Workbench {
   /** `changed`: when methods can be run or not. */
   constructor(private readonly viewer: Viewer, private readonly changed: (ready: boolean, problem?: ProblemText) => void) {}
 
+  /** Whether a method can be run. */
   get ready(): boolean {
-    return this.session?.source !== undefined;
+    return this.session !== undefined && !this.result.busy;
+  }
+
+  /** Whether it is what an address names; that need not say everything. */
+  isAt({ session, representation, faces }: Place): boolean {
+    return session === this.session?.id && [undefined, this.made?.id].includes(representation) && [undefined, this.faces].includes(faces);
   }
 
   /** What the address names, if it is still there. */
@@ -57,6 +63,7 @@ export class Workbench {
     const place = readPlace();
     if (!place.session) return;
     const session = await getSession(place.session);
+    if (readPlace().session !== place.session) return; // another was opened meanwhile
     this.open(session, place.name ?? "");
     const made = session.representations.find((one) => one.id === place.representation) ?? session.representations.at(-1);
     if (!made) return;
@@ -67,8 +74,15 @@ export class Workbench {
     this.order({ kind: "open", session: session.id, representation: made.id, faces: place.faces ?? made.faces, centre: this.centre });
   }
 
-  /** A session whose mesh was just uploaded. */
-  open(session: Session, name: string): void {
+  /** A session whose mesh was just uploaded, instead of the one before, which goes. */
+  replace(session: Session, name: string): void {
+    const before = this.session?.id;
+    this.open(session, name);
+    // One that cannot be deleted ends when its time is over.
+    if (before) deleteSession(before).catch(() => undefined);
+  }
+
+  private open(session: Session, name: string): void {
     if (!session.source) throw new Problem({ cause: "EMPTY_INPUT", detail: `session ${session.id} has no mesh; upload one` });
     this.source.end();
     this.result.end();
@@ -208,12 +222,13 @@ export class Workbench {
 
   private async showWorst(): Promise<void> {
     const session = this.session!.id, made = this.made?.id ?? "", faces = this.faces;
+    const isShown = (): boolean => session === this.session?.id && made === (this.made?.id ?? "") && (!made || faces === this.faces);
     try {
       const quality = await getQuality(session, made, faces, worstFaces);
-      if (session !== this.session?.id || made !== (this.made?.id ?? "") || (made && faces !== this.faces)) return;
+      if (!isShown()) return;
       refill(find("worst"), worstList(quality.worstFaces, (place, size) => this.fly(made ? "result" : "source", place, size)));
     } catch (error) {
-      showProblem(problemText(error));
+      if (isShown()) showProblem(problemText(error));
     }
   }
 
