@@ -10,6 +10,7 @@ import type { News, Order, Patch, Point } from "../shared/protocol";
 import { measure } from "./figures";
 import { eventsOf } from "./frames";
 import { BaseParts, type HeldMesh } from "./held_mesh";
+import { Orders } from "./orders";
 import { Painter } from "./painter";
 import { readPly } from "./ply";
 import type { Surface } from "./surface";
@@ -178,11 +179,30 @@ async function obey(order: Order): Promise<void> {
   }
 }
 
-self.onmessage = async ({ data }: MessageEvent<Order>) => {
+async function carryOut(order: Order): Promise<void> {
   try {
-    await obey(data);
+    await obey(order);
   } catch (error) {
     tell({ kind: "problem", problem: problemText(error) });
   }
   tell({ kind: "idle" });
+}
+
+const orders = new Orders();
+let due = false;
+
+/** One order a turn of the event loop: those that came while it was busy come in before the next is taken. */
+function carryOutNext(): void {
+  if (due || orders.empty) return;
+  due = true;
+  setTimeout(() => {
+    due = false;
+    void carryOut(orders.take()!);
+    carryOutNext();
+  });
+}
+
+self.onmessage = ({ data }: MessageEvent<Order>) => {
+  for (let dropped = orders.push(data); dropped > 0; --dropped) tell({ kind: "idle" });
+  carryOutNext();
 };
