@@ -2,7 +2,7 @@ import { fromJson, type JsonValue } from "@bufbuild/protobuf";
 import { RepresentationSchema, type Representation, type Session } from "../gen/vsplit/v1/meshing_pb";
 import type { ColourBy } from "../shared/colours";
 import { Problem, problemText } from "../shared/problem";
-import type { Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
+import type { Element, Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
 import { readPlace, writePlace, type Place } from "./address";
 import { deleteSession, getQuality, getSession, meshPath } from "./api";
 import { Colouring } from "./colouring";
@@ -39,6 +39,7 @@ export class Workbench {
   private readonly figures: Partial<Record<Slot, Figures>> = {};
   private fresh = false;
   private verb: Verb = "improve";
+  private running = false;
   private readonly colouring = new Colouring(() => this.recolour());
   private source = this.worker("source");
   private result = this.worker("result");
@@ -92,6 +93,7 @@ export class Workbench {
     this.colouring.clear();
     this.name = name;
     this.made = undefined;
+    this.running = false;
     delete this.figures.source;
     delete this.figures.result;
     this.viewer.clear("source");
@@ -116,6 +118,7 @@ export class Workbench {
   run(verb: Verb, options: object): void {
     if (!this.session) return;
     this.verb = verb;
+    this.running = true;
     const body: Record<string, unknown> = { options };
     // Control is for meshes that were improved; improve begins anew.
     if (verb === "control" && this.made) body["source"] = { representation: this.made.id, faces: this.faces };
@@ -176,6 +179,8 @@ export class Workbench {
         performance.mark("vsplit method ended"); // unless another comes
         this.fresh = true;
         return this.progress.show(news.stage, news.fraction, news.faces);
+      case "place":
+        return this.fly("result", news.place, news.size);
       case "representation":
         return this.take(fromJson(RepresentationSchema, news.json as JsonValue));
       case "problem":
@@ -183,6 +188,7 @@ export class Workbench {
         return this.changed(this.ready, news.problem);
       case "idle":
         if (slot === "source" || this.result.busy) return;
+        this.running = false;
         find("stage").setAttribute("aria-busy", "false");
         this.progress.hide();
         if (this.made) this.slider.set(this.made.facesMin, this.made.facesMax, this.faces);
@@ -232,7 +238,14 @@ export class Workbench {
     }
   }
 
+  /** To an element of the resolution that the method was asked for: it may not be there at others. */
+  private locate(element: Element): void {
+    if (this.running) showProblem({ cause: "BUSY", detail: "a method runs; the mesh stays as it is until its result comes" });
+    else this.order({ kind: "locate", faces: this.at, element });
+  }
+
   private fly(slot: Slot, place: Point, size: number): void {
+    find("canvas").dataset["flown"] = place.join(" ");
     this.viewer.fly(slot, place.map((v, axis) => v - this.centre[axis]!) as unknown as Point, size);
   }
 
@@ -244,7 +257,7 @@ export class Workbench {
 
   private showNotes(): void {
     const findings = findingList(this.session?.source?.findings ?? [], this.diagonal / 100, (place, size) => this.fly("source", place, size));
-    const notes = [...(this.made ? resultNotes(this.made, this.at) : []), ...findings];
+    const notes = [...(this.made ? resultNotes(this.made, this.at, (element) => this.locate(element)) : []), ...findings];
     refill(find("notes"), ...(notes.length > 0 ? notes : ["Nothing to report."]));
   }
 

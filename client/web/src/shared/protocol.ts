@@ -10,6 +10,12 @@ export interface ProblemText {
 
 export type Point = readonly [number, number, number];
 
+/** A face or vertex of a result, numbered as the server does: only those that are seen count. */
+export interface Element {
+  of: "face" | "vertex";
+  number: number;
+}
+
 /** Least, mean and largest of a figure; zeros where there is nothing. */
 export type Spread = readonly [min: number, mean: number, max: number];
 
@@ -54,6 +60,8 @@ export type Order =
   | { kind: "method"; path: string; body: object; centre: Point }
   | { kind: "open"; session: string; representation: string; faces: number; centre: Point }
   | { kind: "faces"; faces: number }
+  /** To the resolution that the element is of, and where it is there. */
+  | { kind: "locate"; faces: number; element: Element }
   | { kind: "colour"; by: ColourBy; range: Range }
   | { kind: "token"; token: string }
   | { kind: "cancel" };
@@ -63,6 +71,7 @@ export type News =
   | { kind: "progress"; stage: string; fraction: number; faces: number }
   | { kind: "patch"; patch: Patch }
   | { kind: "figures"; figures: Figures }
+  | { kind: "place"; place: Point; size: number }
   | { kind: "representation"; json: unknown }
   | { kind: "problem"; problem: ProblemText }
   | { kind: "idle" };

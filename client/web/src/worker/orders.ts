@@ -1,7 +1,7 @@
 import type { Order } from "../shared/protocol";
 
 /** Orders of which the last one counts, and none before. */
-const lastCounts: Partial<Record<Order["kind"], string>> = { faces: "resolution", colour: "colour" };
+const lastCounts: Partial<Record<Order["kind"], string>> = { faces: "resolution", locate: "resolution", colour: "colour" };
 
 /** Orders that wait while another is carried out, oldest first. */
 export class Orders {

@@ -6,12 +6,13 @@ import { RecordEncoding, RepresentationSchema, type Representation } from "../ge
 import { access, fields } from "../shared/access";
 import { nothing, Ramp } from "../shared/colours";
 import { fail, problemOf, problemText, Problem } from "../shared/problem";
-import type { News, Order, Patch, Point } from "../shared/protocol";
+import type { Element, News, Order, Patch, Point } from "../shared/protocol";
 import { measure } from "./figures";
 import { eventsOf } from "./frames";
 import { BaseParts, type HeldMesh } from "./held_mesh";
 import { Orders } from "./orders";
 import { Painter } from "./painter";
+import { placeOf } from "./places";
 import { readPly } from "./ply";
 import type { Surface } from "./surface";
 
@@ -146,6 +147,13 @@ async function goTo(faces: number, centre: Point): Promise<void> {
   await stream(`/v1/sessions/${opened.session}:setResolution`, body, opened.session, centre);
 }
 
+/** Says nothing where the mesh is at another resolution in the end: another was asked for meanwhile. */
+async function locate(faces: number, element: Element, centre: Point): Promise<void> {
+  await goTo(faces, centre);
+  const found = held?.visible === faces ? placeOf(held.mesh, element) : undefined;
+  if (found) tell({ kind: "place", ...found });
+}
+
 async function loadSource(path: string, centre: Point): Promise<void> {
   const response = await fetch(path, { headers: fields() });
   if (!response.ok) throw await problemOf(response);
@@ -168,6 +176,8 @@ async function obey(order: Order): Promise<void> {
       return stream(`/v1/sessions/${order.session}:setResolution`, { representation: order.representation, faces: order.faces }, order.session, centre);
     case "faces":
       return goTo(order.faces, centre);
+    case "locate":
+      return locate(order.faces, order.element, centre);
     case "colour":
       painter.ramp = ramp = new Ramp(order.by, order.range);
       return tellPatch(true, performance.now(), held?.mesh.records ?? 0);
