@@ -11,6 +11,7 @@ type Field = HTMLInputElement | HTMLSelectElement;
 export class MethodForm {
   private readonly fields: { option: Option; field: Field }[] = [];
   private readonly run: HTMLButtonElement;
+  private suggested: Readonly<Record<string, string>> = {};
 
   constructor(private readonly form: HTMLFormElement, verb: string, options: Option[], start: (body: object) => void) {
     const rows = options.map((option) => this.row(option));
@@ -23,6 +24,16 @@ export class MethodForm {
       event.preventDefault();
       if (this.enabled && this.check()) start(this.options());
     });
+  }
+
+  /** Sets options that suit a mesh, instead of those that suited the one before. What people set themselves stays. */
+  suggest(options: Readonly<Record<string, string>>): void {
+    for (const { option, field } of this.fields) {
+      const name = option.path.join("."), before = this.suggested[name];
+      if (before !== undefined && field.value === before) field.value = "";
+      if (options[name] !== undefined) field.value = options[name];
+    }
+    this.suggested = options;
   }
 
   /** The button that runs the method keeps the focus when it cannot be pressed for a while. */

@@ -8,22 +8,29 @@ import { MethodForm } from "./form";
 import { check, clear, pointAt } from "./number_field";
 import { hideProblem, showProblem, startProblems } from "./problems";
 import { ProgressBar } from "./progress";
+import { samples } from "./samples";
 import { formatsOf, methodOptions, type Contract } from "./schema";
 import { startTheme } from "./theme";
 import { startToken } from "./token";
 import { Viewer, type View } from "./viewer";
 import { Workbench } from "./workbench";
 
-const samples = ["bracket.stl", "scan.ply"];
-
 const viewer = new Viewer(find("canvas"));
 const forms: MethodForm[] = [];
 let started: MethodForm | undefined;
-const bench = new Workbench(viewer, (ready, problem) => {
-  for (const form of forms) form.enabled = ready && sending === undefined;
-  if (problem?.field) started?.blame(problem.field);
-  updateDownload();
-});
+const bench = new Workbench(
+  viewer,
+  (ready, problem) => {
+    for (const form of forms) form.enabled = ready && sending === undefined;
+    if (problem?.field) started?.blame(problem.field);
+    updateDownload();
+  },
+  (name) => {
+    const sample = samples.find((one) => one.name === name);
+    for (const form of forms) form.suggest(sample?.options ?? {});
+    find("sample-note").textContent = sample?.note ?? "";
+  },
+);
 
 function updateDownload(): void {
   const link = find<HTMLAnchorElement>("download");
@@ -44,7 +51,7 @@ function enableForms(): void {
 }
 
 /** Uploads a mesh; one that is still on its way gives way to it. */
-async function send(get: (signal: AbortSignal) => Promise<Blob>, name: string): Promise<void> {
+async function send(get: (signal: AbortSignal) => Promise<Blob>, name: string, sample?: string): Promise<void> {
   const weld = find<HTMLInputElement>("weld");
   clear(weld);
   if (!check(weld, "Weld")) return;
@@ -57,7 +64,7 @@ async function send(get: (signal: AbortSignal) => Promise<Blob>, name: string): 
   try {
     const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(weld.value) };
     const session = await upload(await get(stop.signal), options, (share) => progress.show(share < 1 ? "upload" : "inspect", share), stop.signal);
-    if (sending === stop) bench.replace(session, name);
+    if (sending === stop) bench.replace(session, name, sample);
   } catch (error) {
     if (sending !== stop) return;
     const problem = problemText(error);
@@ -78,13 +85,13 @@ async function fetchSample(name: string, signal: AbortSignal): Promise<Blob> {
 
 function startSamples(): void {
   let coming: string | undefined;
-  for (const name of samples) {
+  for (const { name } of samples) {
     const button = element("button", { type: "button", class: "quiet" }, name);
     button.addEventListener("click", (event) => {
       // Two clicks in a row ask once.
       if (event.detail > 1 || coming === name) return;
       coming = name;
-      void send((signal) => fetchSample(name, signal), name).finally(() => {
+      void send((signal) => fetchSample(name, signal), name, name).finally(() => {
         if (coming === name) coming = undefined;
       });
     });

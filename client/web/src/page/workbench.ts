@@ -30,6 +30,7 @@ function stepText(patch: Patch): string {
 export class Workbench {
   private session: Session | undefined;
   private name = "";
+  private sample: string | undefined;
   private made: Representation | undefined;
   private faces = 0;
   /** The resolution that the method was asked for: what it said is of that. */
@@ -46,8 +47,12 @@ export class Workbench {
   private readonly progress = new ProgressBar(workPlace(), () => runButton(this.verb), () => this.result.tell({ kind: "cancel" }));
   private readonly slider = new ResolutionSlider((faces) => this.order({ kind: "faces", faces }));
 
-  /** `changed`: when methods can be run or not. */
-  constructor(private readonly viewer: Viewer, private readonly changed: (ready: boolean, problem?: ProblemText) => void) {}
+  /** `changed`: when methods can be run or not. `opened`: when a session is, with the name of the sample that it has. */
+  constructor(
+    private readonly viewer: Viewer,
+    private readonly changed: (ready: boolean, problem?: ProblemText) => void,
+    private readonly opened: (sample: string | undefined) => void,
+  ) {}
 
   /** Whether a method can be run. */
   get ready(): boolean {
@@ -65,25 +70,25 @@ export class Workbench {
     if (!place.session) return;
     const session = await getSession(place.session);
     if (readPlace().session !== place.session) return; // another was opened meanwhile
-    this.open(session, place.name ?? "");
+    this.open(session, place.name ?? "", place.sample);
     const made = session.representations.find((one) => one.id === place.representation) ?? session.representations.at(-1);
     if (!made) return;
     this.made = made;
     this.at = made.faces;
-    writePlace({ session: session.id, representation: made.id, faces: place.faces ?? made.faces, name: this.name });
+    this.writePlace(place.faces ?? made.faces);
     this.showNotes();
     this.order({ kind: "open", session: session.id, representation: made.id, faces: place.faces ?? made.faces, centre: this.centre });
   }
 
   /** A session whose mesh was just uploaded, instead of the one before, which goes. */
-  replace(session: Session, name: string): void {
+  replace(session: Session, name: string, sample?: string): void {
     const before = this.session?.id;
-    this.open(session, name);
+    this.open(session, name, sample);
     // One that cannot be deleted ends when its time is over.
     if (before) deleteSession(before).catch(() => undefined);
   }
 
-  private open(session: Session, name: string): void {
+  private open(session: Session, name: string, sample: string | undefined): void {
     if (!session.source) throw new Problem({ cause: "EMPTY_INPUT", detail: `session ${session.id} has no mesh; upload one` });
     this.source.end();
     this.result.end();
@@ -92,6 +97,7 @@ export class Workbench {
     this.session = session;
     this.colouring.clear();
     this.name = name;
+    this.sample = sample;
     this.made = undefined;
     this.running = false;
     delete this.figures.source;
@@ -107,11 +113,12 @@ export class Workbench {
     this.diagonal = 2 * Math.hypot(...half);
     this.viewer.frame(half);
     this.source.tell({ kind: "source", path: meshPath(session.id, "", 0, "PLY"), centre: this.centre });
-    writePlace({ session: session.id, name });
+    this.writePlace();
     this.showSummary();
     this.showNotes();
     this.showQuality();
     void this.showWorst();
+    this.opened(sample);
     this.changed(true);
   }
 
@@ -222,8 +229,13 @@ export class Workbench {
 
   /** The mesh stays as it is for now: the address names it, and its worst faces are asked for. */
   private settle(): void {
-    writePlace({ session: this.session!.id, representation: this.made!.id, faces: this.faces, name: this.name });
+    this.writePlace(this.faces);
     void this.showWorst();
+  }
+
+  private writePlace(faces?: number): void {
+    const { name, sample } = this;
+    writePlace({ session: this.session!.id, representation: this.made?.id, faces, name, sample });
   }
 
   private async showWorst(): Promise<void> {
