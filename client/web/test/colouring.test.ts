@@ -22,6 +22,9 @@ test("input and result share a range that has every face that is drawn", () => {
   expect(told.length).toBe(before);
   colouring.measured("result", [3, 8]); // the largest is gone
   expect(colouring.range).toEqual([0.5, 90]);
+  colouring.show("result"); // the only one that is drawn
+  expect(colouring.range).toEqual([3, 8]);
+  colouring.show("both");
   colouring.take("result", patch(0, 0, [Infinity, 0])); // a method that was cancelled: no result
   expect(colouring.range).toEqual([0.5, 90]);
 });

@@ -168,13 +168,15 @@ const steps = {
   async "coloured by size, the legend is true of every face of input and result"({ page }) {
     await page.selectOption("#colour", "size");
     const before = await page.$eval("#faces", (slider) => Number(slider.value) / 1000);
-    for (const share of [0, before]) {
+    for (const [view, share] of [["both", 0], ["both", before], ["source", before], ["result", before], ["result", 0.02], ["both", before]]) {
+      await page.selectOption("#view", view);
       await slide(page, share);
       await settled(page);
       // What is told in three digits may be a little beyond.
-      const sizes = await page.$$eval(".spread tbody tr:nth-child(2) td", (cells) => cells.map((cell) => cell.textContent.split(" / ").map(Number)));
+      const all = await page.$$eval(".spread tbody tr:nth-child(2) td", (cells) => cells.map((cell) => cell.textContent.split(" / ").map(Number)));
+      const sizes = { both: all, source: [all[0]], result: [all[1]] }[view];
       const [low, high] = await page.$$eval("#legend span:not(.hint):not(.bar):not(.bar *)", (ends) => ends.map((end) => Number(end.textContent)));
-      assert.equal(sizes.length, 2);
+      assert.equal(all.length, 2);
       for (const [least, , largest] of sizes) assert.ok(low <= least * 1.01 && largest <= high * 1.01, `${low} to ${high} for ${least} to ${largest}`);
       assert.ok(low * 2.01 >= Math.min(...sizes.map(([least]) => least)) && high <= 2.01 * Math.max(...sizes.map(([, , largest]) => largest)), `${low} to ${high} for ${sizes.join(" and ")}`);
     }

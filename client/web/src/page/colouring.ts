@@ -1,14 +1,15 @@
 import { joined, nothing, rangeOf, type ColourBy, type Range } from "../shared/colours";
 import type { Patch } from "../shared/protocol";
-import type { Slot } from "./viewer";
+import type { Slot, View } from "./viewer";
 
 /**
- * What both meshes are coloured by. They share one range, so that a colour means the same in either; it is widened as soon as a
- * face beyond it is drawn.
+ * What meshes are coloured by. Side by side they share one range, so that a colour means the same in either; it is widened as soon
+ * as a face beyond it is drawn.
  */
 export class Colouring {
   by: ColourBy = "stretch";
   range: Range = rangeOf("stretch", nothing);
+  private view: View = "both";
   private sizes: Record<Slot, Range> = { source: nothing, result: nothing };
 
   /** `changed`: when meshes are to be coloured anew. */
@@ -17,6 +18,11 @@ export class Colouring {
   choose(by: ColourBy): void {
     this.by = by;
     this.update(true);
+  }
+
+  show(view: View): void {
+    this.view = view;
+    this.update(false);
   }
 
   /** A patch is drawn: instead of what was there, or beside it. */
@@ -38,7 +44,8 @@ export class Colouring {
   }
 
   private update(anyway: boolean): void {
-    const range = rangeOf(this.by, joined(this.sizes.source, this.sizes.result));
+    const { source, result } = this.sizes;
+    const range = rangeOf(this.by, this.view === "both" ? joined(source, result) : this.sizes[this.view]);
     if (!anyway && range[0] === this.range[0] && range[1] === this.range[1]) return;
     this.range = range;
     this.changed();

@@ -13,7 +13,7 @@ export function legend(by: ColourBy, range: Range): HTMLElement {
     part.style.background = ramp.cssAt((n + 0.5) / steps);
     bar.append(part);
   }
-  const words = { stretch: "stretch; red under 0.2", size: "longest edge, model units, by its logarithm", valence: "edges at a vertex" }[by];
+  const words = { stretch: "stretch; red under 0.2", size: "longest edge, model units; logarithmic", valence: "edges at a vertex" }[by];
   // Stretch has these bounds, and sizes reach from the one to the other; a valence may be beyond.
   const [from, to] = by === "valence" ? [`≤ ${low}`, `≥ ${high}`] : [figure(low, 3), figure(high, 3)];
   return element("div", {}, element("span", {}, from), bar, element("span", {}, to), element("span", { class: "hint" }, words));

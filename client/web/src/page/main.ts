@@ -135,7 +135,10 @@ function startTools(): void {
     share.disabled = axis.value === "";
     viewer.cut(axis.value === "" ? undefined : Number(axis.value), Number(share.value));
   };
-  viewer.shown = (view) => (find<HTMLSelectElement>("view").value = view);
+  viewer.shown = (view) => {
+    find<HTMLSelectElement>("view").value = view;
+    bench.show(view);
+  };
   viewer.uncut = () => {
     axis.value = "";
     cut();
@@ -184,7 +187,8 @@ startToken(() => {
 });
 startTheme((background) => viewer.background(background));
 addEventListener("hashchange", () => {
-  if (bench.isAt(readPlace())) return;
+  const place = readPlace();
+  if (!place.session || bench.isAt(place)) return;
   hideProblem();
   reopen();
 });

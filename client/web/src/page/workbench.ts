@@ -14,7 +14,7 @@ import { showProblem } from "./problems";
 import { ProgressBar, workPlace } from "./progress";
 import { qualityTable, spreadTable, stretchHistogram } from "./quality_panel";
 import { ResolutionSlider } from "./resolution";
-import type { Slot, Viewer } from "./viewer";
+import type { Slot, View, Viewer } from "./viewer";
 
 const worstFaces = 20;
 
@@ -137,6 +137,10 @@ export class Workbench {
 
   colour(by: ColourBy): void {
     this.colouring.choose(by);
+  }
+
+  show(view: View): void {
+    this.colouring.show(view);
   }
 
   /** Where the mesh that is shown can be had as a file. */
