@@ -119,6 +119,12 @@ const steps = {
     await refused("#weld", "1e", /Weld: this is no number/, () => page.setInputFiles("#file", join(data, "bracket.stl")));
     assert.equal(sent, 0);
     page.off("request", count);
+    // What the server refuses is pointed at as well.
+    await page.fill("#weld", "-1");
+    await page.setInputFiles("#file", join(data, "bracket.stl"));
+    await page.waitForSelector("#weld[aria-invalid]");
+    assert.match(await page.textContent("#problems"), /^INVALID_OPTION .*0 or more/);
+    await page.fill("#weld", "");
     await page.click("#problems button");
   },
 
