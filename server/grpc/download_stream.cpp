@@ -41,13 +41,15 @@ Expected<DownloadSource::File> write_file(const service::PickedMesh& picked, Mes
     if (!opened) return opened.error();
     DownloadSource::File file;
     file.mesh = opened->ref;
-    const Expected<std::string> text = surface == nullptr
+    Expected<std::string> text = surface == nullptr
                                            ? Expected<std::string>(write_mesh(*opened->mesh, format))
                                            : write_order_2(*opened->mesh, format, *surface, file.nodes_on_chord);
     if (!text) return text.error();
-    Expected<service::FileMapping> mapped = map_file(*text, directory);
-    if (!mapped) return mapped.error();
-    file.mapping.emplace(*std::move(mapped));
+    if (Expected<service::FileMapping> mapped = map_file(*text, directory); mapped) {
+        file.mapping.emplace(*std::move(mapped));
+    } else {
+        file.text = *std::move(text);
+    }
     return file;
 }
 
@@ -127,7 +129,7 @@ DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& en
             return Step::kEnd;
         }
         file_ = std::move(**prepared);
-    } else if (sent_ == file_->mapping->bytes().size()) {
+    } else if (sent_ == file_->bytes().size()) {
         return Step::kEnd;
     }
     fill(chunk);
@@ -136,7 +138,7 @@ DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& en
 
 void DownloadSource::fill(v1::MeshChunk& chunk) {
     chunk.Clear();
-    const std::span<const std::byte> rest = file_->mapping->bytes().subspan(sent_);
+    const std::span<const std::byte> rest = file_->bytes().subspan(sent_);
     const std::span<const std::byte> part = rest.first(std::min(rest.size(), kChunkBytes));
     chunk.set_offset(sent_);
     chunk.set_data(part.data(), part.size());

@@ -52,16 +52,17 @@ Status check(Database& database) {
 
 }  // namespace
 
-Expected<std::unique_ptr<SqliteSessionIndex>> SqliteSessionIndex::open(const std::filesystem::path& file) {
-    Expected<Database> database = Database::open(file);
+Expected<std::unique_ptr<SqliteSessionIndex>> SqliteSessionIndex::open(const std::filesystem::path& file, bool writable) {
+    Expected<Database> database = Database::open(file, writable);
     if (!database) return database.error();
     std::unique_ptr<SqliteSessionIndex> index(new SqliteSessionIndex(*std::move(database)));
-    if (Status ready = index->prepare_schema(); !ready) return ready.error();
+    if (Status ready = index->prepare_schema(writable); !ready) return ready.error();
     return index;
 }
 
-Status SqliteSessionIndex::prepare_schema() {
-    for (const char* setting : {"PRAGMA journal_mode = WAL", "PRAGMA synchronous = FULL", "PRAGMA foreign_keys = ON"}) {
+Status SqliteSessionIndex::prepare_schema(bool writable) {
+    for (const char* setting : {"PRAGMA synchronous = FULL", "PRAGMA foreign_keys = ON", "PRAGMA journal_mode = WAL"}) {
+        if (!writable) break;
         if (Status set = database_.run(setting); !set) return set;
     }
     if (Status sound = check(database_); !sound) return sound;

@@ -48,7 +48,7 @@ private:
     [[nodiscard]] Expected<std::shared_ptr<const service::Representation>> recall(const RepresentationRow& row,
                                                                                   const Blobs& blobs,
                                                                                   service::MemoryBudget& budget) const;
-    [[nodiscard]] Status set_aside(std::uint64_t session, const std::string& id, const Error& why);
+    void set_aside(std::uint64_t session, const std::string& id, const Error& why);
     void can_be_loaded(const service::SourceMesh& source, const std::string& blob) const;
     void collect(const std::vector<std::string>& candidates);
 
