@@ -41,9 +41,8 @@ Expected<DownloadSource::File> write_file(const service::PickedMesh& picked, Mes
     if (!opened) return opened.error();
     DownloadSource::File file;
     file.mesh = opened->ref;
-    Expected<std::string> text = surface == nullptr
-                                           ? Expected<std::string>(write_mesh(*opened->mesh, format))
-                                           : write_order_2(*opened->mesh, format, *surface, file.nodes_on_chord);
+    Expected<std::string> text = surface == nullptr ? Expected<std::string>(write_mesh(*opened->mesh, format))
+                                                    : write_order_2(*opened->mesh, format, *surface, file.nodes_on_chord);
     if (!text) return text.error();
     if (Expected<service::FileMapping> mapped = map_file(*text, directory); mapped) {
         file.mapping.emplace(*std::move(mapped));

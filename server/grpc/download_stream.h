@@ -15,8 +15,8 @@
 
 namespace vsplit::rpc {
 
-/// DownloadMesh: an errand writes the file, unnamed and on disk, so that a slow reader costs one chunk of memory and not a file. A
-/// full disk keeps nobody from reading: the file is in memory then.
+/// DownloadMesh: an errand writes the file, unnamed and on disk, so that a slow reader costs one chunk of memory and not a file.
+/// A full disk keeps nobody from reading: the file is in memory then.
 class DownloadSource final : public MessageSource<v1::MeshChunk> {
 public:
     static constexpr std::size_t kChunkBytes = std::size_t{256} * 1024;

@@ -161,7 +161,8 @@ int serve(const ServerOptions& options, const ListenAddress& address, const std:
     Expected<std::optional<store::DataDir>> data = open_data_dir(options);
     if (!data) return fail(data.error().message);
     if (*data) service_options.temp_directory = (*data)->uploads();
-    service::MeshingService service(service_options, *data ? (*data)->take_archive() : std::make_unique<service::SessionArchive>());
+    service::MeshingService service(service_options,
+                                    *data ? (*data)->take_archive() : std::make_unique<service::SessionArchive>());
     if (const Status restored = service.restore(); !restored) return fail(restored.error().message);
     Expected<std::unique_ptr<rpc::GrpcServer>> server =
         rpc::GrpcServer::start(address.text(address.port), service, extras_of(options, *guard, metrics));

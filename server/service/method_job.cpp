@@ -106,7 +106,8 @@ JobOutcome MethodJob::make(const MethodRequest& request, const TriangleMesh& mes
 /// For a method on so many faces, in place of the room there was.
 Status MethodJob::make_room(std::uint64_t faces) {
     room_.give_back();
-    Expected<MemoryBudget::Share> room = host_.memory.reserve(memory_to_simplify(faces), "a method on " + std::to_string(faces) + " faces");
+    Expected<MemoryBudget::Share> room =
+        host_.memory.reserve(memory_to_simplify(faces), "a method on " + std::to_string(faces) + " faces");
     if (!room) return room.error();
     room_ = *std::move(room);
     return Done{};

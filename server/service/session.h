@@ -16,8 +16,8 @@
 
 namespace vsplit::service {
 
-/// A mesh, the representations made from it, and the jobs that make them. Thread-safe; no call takes long but those that wait for the
-/// archive. Nothing is seen of a change before the archive has it.
+/// A mesh, the representations made from it, and the jobs that make them. Thread-safe; no call takes long but those that wait for
+/// the archive. Nothing is seen of a change before the archive has it.
 class Session {
 public:
     using Clock = std::chrono::steady_clock;

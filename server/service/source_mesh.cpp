@@ -25,7 +25,8 @@ std::shared_ptr<const SourceMesh> make_source(TriangleMesh mesh, MeshReport repo
 Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byte> bytes, const MeshSettings& settings,
                                                         const Limits& limits, MemoryBudget& budget) {
     return guarded([&]() -> Expected<std::shared_ptr<const SourceMesh>> {
-        const Expected<MemoryBudget::Share> room = budget.reserve(memory_to_read(bytes.size()), "reading this mesh");
+        const Expected<MemoryBudget::Share> room =
+            budget.reserve(memory_to_read(bytes, settings.repair.has_value()), "reading this mesh");
         if (!room) return room.error();
         Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces});
         if (!read) return read.error();

@@ -23,7 +23,8 @@ struct UploadSettings {
 /// succeeds and by nothing else; of two uploads at once the one that commits last stays. Not thread-safe.
 class Upload {
 public:
-    /// \return LIMIT_EXCEEDED for a declared size over the limit, INVALID_OPTION (weld), BUSY, NOT_FOUND, what `disk_error` returns.
+    /// \return LIMIT_EXCEEDED for a declared size over the limit, INVALID_OPTION (weld), BUSY, NOT_FOUND, what `disk_error`
+    /// returns.
     [[nodiscard]] static Expected<Upload> begin(std::shared_ptr<Session> session, const UploadSettings& settings,
                                                 const ServiceOptions& options, MemoryBudget& memory);
 

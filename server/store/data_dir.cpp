@@ -38,8 +38,8 @@ Expected<int> lock(const fs::path& directory, bool writable) {
     const int number = errno;
     close(descriptor);
     if (number != EWOULDBLOCK) return service::disk_error("cannot lock " + directory.string(), number);
-    return Error{Cause::kInvalidOption, directory.string() + " is the data directory of another vsplitd that runs; use another one",
-                 "data_dir"};
+    return Error{Cause::kInvalidOption,
+                 directory.string() + " is the data directory of another vsplitd that runs; use another one", "data_dir"};
 }
 
 /// Puts what cannot be read out of the way, as it is. Returns where.
@@ -50,7 +50,8 @@ Expected<fs::path> put_aside(const fs::path& directory) {
         aside = directory / ("damaged-" + std::to_string(number));
     }
     fs::create_directory(aside, failed);
-    for (const std::string& name : {std::string(kIndex), std::string(kIndex) + "-wal", std::string(kIndex) + "-shm", std::string(kBlobs)}) {
+    for (const std::string& name :
+         {std::string(kIndex), std::string(kIndex) + "-wal", std::string(kIndex) + "-shm", std::string(kBlobs)}) {
         if (!failed && fs::exists(directory / name)) fs::rename(directory / name, aside / name, failed);
     }
     if (failed) return service::disk_error("cannot put its damaged index aside in " + aside.string(), failed.value());
@@ -61,7 +62,9 @@ Expected<fs::path> put_aside(const fs::path& directory) {
 
 Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, Report report) {
     const bool writable = !fs::exists(directory / kIndex) || access(directory.c_str(), W_OK) == 0;
-    if (!writable) report(service::disk_error("the data directory " + directory.string() + " is served, and nothing new is kept in it").message);
+    if (!writable)
+        report(service::disk_error("the data directory " + directory.string() + " is served, and nothing new is kept in it")
+                   .message);
     if (Status made = writable ? make_directories(directory) : Status(Done{}); !made) return made.error();
     const Expected<int> descriptor = lock(directory, writable);
     if (!descriptor) return descriptor.error();
@@ -90,6 +93,9 @@ DataDir::~DataDir() {
 }
 
 DataDir::DataDir(DataDir&& other) noexcept
-    : directory_(std::move(other.directory_)), lock_(std::exchange(other.lock_, -1)), writable_(other.writable_), archive_(std::move(other.archive_)) {}
+    : directory_(std::move(other.directory_)),
+      lock_(std::exchange(other.lock_, -1)),
+      writable_(other.writable_),
+      archive_(std::move(other.archive_)) {}
 
 }  // namespace vsplit::store

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "service/limits.h"
 #include "service/disk_error.h"
+#include "service/limits.h"
 #include "store/sha256.h"
 
 namespace vsplit::store {
@@ -75,7 +75,8 @@ bool is_key(const std::string& name) {
 
 Expected<std::shared_ptr<const Blob>> map_file(const fs::path& place) {
     const Descriptor file(place, O_RDONLY);
-    if (!file.open() && errno == ENOENT) return Error{Cause::kCorrupt, "the data directory: " + place.filename().string() + " is missing", ""};
+    if (!file.open() && errno == ENOENT)
+        return Error{Cause::kCorrupt, "the data directory: " + place.filename().string() + " is missing", ""};
     struct stat about {};
     if (!file.open() || fstat(file.number(), &about) != 0) return service::disk_error("cannot open a stored mesh");
     const auto size = static_cast<std::size_t>(about.st_size);

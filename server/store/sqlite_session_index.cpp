@@ -71,8 +71,8 @@ Status SqliteSessionIndex::prepare_schema(bool writable) {
     if (*version == kVersion) return Done{};
     if (*version > kVersion) {
         return Error{Cause::kUnsupported,
-                     "the data directory's index has version " + std::to_string(*version) + "; this vsplitd knows versions up to " +
-                         std::to_string(kVersion) + ", and a later one is needed",
+                     "the data directory's index has version " + std::to_string(*version) +
+                         "; this vsplitd knows versions up to " + std::to_string(kVersion) + ", and a later one is needed",
                      "data_dir"};
     }
     Transaction transaction(database_);
@@ -100,8 +100,13 @@ Status SqliteSessionIndex::load_sessions(IndexContents& contents) {
         const Expected<bool> row = rows.step();
         if (!row) return row.error();
         if (!*row) return Done{};
-        contents.sessions.push_back({static_cast<std::uint64_t>(rows.number(0)), rows.bytes(1), rows.bytes(2), rows.number(3),
-                                     rows.number(4), static_cast<std::uint64_t>(rows.number(5)), {rows.bytes(6), rows.bytes(7)}});
+        contents.sessions.push_back({static_cast<std::uint64_t>(rows.number(0)),
+                                     rows.bytes(1),
+                                     rows.bytes(2),
+                                     rows.number(3),
+                                     rows.number(4),
+                                     static_cast<std::uint64_t>(rows.number(5)),
+                                     {rows.bytes(6), rows.bytes(7)}});
     }
 }
 

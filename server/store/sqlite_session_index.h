@@ -22,8 +22,7 @@ public:
     [[nodiscard]] Status set_source(std::uint64_t session, const StoredItem& source) override;
     [[nodiscard]] Status add_representation(const RepresentationRow& representation, std::uint64_t made) override;
     [[nodiscard]] Status remove_sessions(const std::vector<std::uint64_t>& sessions) override;
-    [[nodiscard]] Status note_time(std::int64_t now,
-                                   const std::vector<std::pair<std::uint64_t, std::int64_t>>& expire) override;
+    [[nodiscard]] Status note_time(std::int64_t now, const std::vector<std::pair<std::uint64_t, std::int64_t>>& expire) override;
     [[nodiscard]] Expected<std::uint64_t> add_job(std::uint64_t session, const std::string& info) override;
     [[nodiscard]] Status remove_jobs(const std::vector<std::uint64_t>& jobs) override;
     [[nodiscard]] Status set_aside(std::uint64_t session, const std::string& why) override;

@@ -175,7 +175,7 @@ Expected<StoredItem> StoredSessions::keep_levels(const service::Representation& 
 Status StoredSessions::add(const service::SessionRecord& session) {
     const std::shared_lock lock(collecting_);
     SessionRow row{session.number, session.id, session.owner, since_1970(session.create_time), session.expires.count(),
-                   session.made, {}};
+                   session.made,   {}};
     if (session.source) {
         Expected<StoredItem> item = keep_source(*session.source);
         if (!item) return item.error();

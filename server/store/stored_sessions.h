@@ -31,9 +31,8 @@ public:
     [[nodiscard]] Status add_representation(std::uint64_t session, const service::Representation& representation,
                                             std::uint64_t made) override;
     [[nodiscard]] Status remove(const std::vector<std::uint64_t>& sessions) override;
-    [[nodiscard]] Status note_time(
-        std::chrono::milliseconds now,
-        const std::vector<std::pair<std::uint64_t, std::chrono::milliseconds>>& expire) override;
+    [[nodiscard]] Status note_time(std::chrono::milliseconds now,
+                                   const std::vector<std::pair<std::uint64_t, std::chrono::milliseconds>>& expire) override;
     [[nodiscard]] Expected<std::uint64_t> add_job(std::uint64_t session, const service::MethodRequest& request) override;
     [[nodiscard]] Status remove_jobs(const std::vector<std::uint64_t>& jobs) override;
     [[nodiscard]] service::ArchiveUse use() const override;

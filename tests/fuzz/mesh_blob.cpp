@@ -1,12 +1,13 @@
 // Meshes of the data directory: the mesh that was kept, or CORRUPT, whatever the bytes.
 
+#include "store/mesh_blob.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 
 #include "check.h"
-#include "store/mesh_blob.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace vsplit;

@@ -1,5 +1,5 @@
-// Requests as JSON and as bytes: options that can be obeyed, or an error that names the field, whatever comes. The first byte says
-// which message and which form.
+// Requests as JSON and as bytes: options that can be obeyed, or an error that names the field, whatever comes. The first byte
+// says which message and which form.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,3 @@
-#include "store/file_blob_store.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "scratch_dir.h"
+#include "store/file_blob_store.h"
 #include "store/mesh_blob.h"
 #include "store/sha256.h"
 #include "tests/core/meshes.h"
