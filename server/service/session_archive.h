@@ -23,9 +23,9 @@ struct UnfinishedMethod {
 /// A session as an archive keeps it.
 struct SessionRecord {
     std::uint64_t number = 0;  ///< orders sessions by creation; not used twice
-    std::string id;
-    std::string owner;
-    std::chrono::system_clock::time_point create_time;
+    std::string id{};
+    std::string owner{};
+    std::chrono::system_clock::time_point create_time{};
     std::chrono::milliseconds expires{};  ///< in service time, see SessionArchive
     std::uint64_t made = 0;               ///< representations ever
     std::shared_ptr<const SourceMesh> source{};
