@@ -266,13 +266,26 @@ TEST_F(RestTest, RefusesWhatHttpHasANameFor) {
         is_problem(ask("POST", session + ":improve", {{"Accept", "text/html, application/json;q=0"}}), 406, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("POST", session + ":improve", {{"Content-Type", "text/plain"}}, "{}"), 415, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("PUT", session + "/mesh", kJson, "{}"), 415, "UNSUPPORTED"));
-    EXPECT_TRUE(is_problem(ask("POST", session + ":improve", kJson, "{\"optoins\": {}}"), 400, "MALFORMED_INPUT"));
+    EXPECT_TRUE(is_problem(ask("POST", session + ":improve", kJson, "{\"optoins\": {}}"), 400, "INVALID_OPTION"));
     EXPECT_TRUE(is_problem(ask("GET", session + "/quality?worst=many"), 400, "INVALID_OPTION"));
     EXPECT_TRUE(is_problem(ask("GET", session + "?x=%zz"), 400, "MALFORMED_INPUT"));
     EXPECT_TRUE(is_problem(ask("GET", session, kJson, "{}"), 400, "MALFORMED_INPUT"));
     EXPECT_TRUE(is_problem(ask("BREW", session), 501, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("GET", "/healthz", {{"X", std::string(20000, 'x')}}), 431, "LIMIT_EXCEEDED"));
     EXPECT_TRUE(is_problem(ask("GET", "/healthz", {{"Host", "two"}}), 400, "MALFORMED_INPUT"));
+}
+
+TEST_F(RestTest, AFieldThatDoesNotTakeItsValueIsNamed) {
+    const std::string target = "/v1/sessions/" + session_of(cube()) + ":improve";
+    for (const std::string value : {"1.5", "-5", "1e30", "abc"}) {
+        const std::string quote = value == "abc" ? "\"" : "";
+        for (const HttpReply& reply : {ask("POST", target, kJson, R"({"options": {"faces": )" + quote + value + quote + "}}"),
+                                       ask("POST", target + "?options.faces=" + value)}) {
+            EXPECT_TRUE(is_problem(reply, 400, "INVALID_OPTION"));
+            EXPECT_EQ(json_at(reply.body, "/field"), "options.faces");
+            EXPECT_THAT(json_at(reply.body, "/detail"), HasSubstr("a whole number from 0 to 4294967295"));
+        }
+    }
 }
 
 TEST_F(RestTest, DeepAndHugeJsonIsRefused) {
