@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "guard/digest.h"
 #include "service/guarded.h"
 #include "vsplit/base/execution_context.h"
 #include "vsplit/io/second_order.h"
@@ -38,6 +39,7 @@ Expected<DownloadSource::File> write_file(const TriangleMesh& mesh, MeshFormat f
     }
     Expected<service::FileMapping> mapped = map_file(text);
     if (!mapped) return mapped.error();
+    file.digest = guard::hex_digits(guard::digest_of(text));
     file.mapping.emplace(*std::move(mapped));
     return file;
 }
@@ -110,16 +112,15 @@ Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(ser
 }
 
 DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& end) {
-    if (!file_) {
+    if (!file_.mapping) {
         std::optional<Expected<File>> prepared = prepared_->take();
         if (!prepared) return Step::kWait;
         if (!*prepared) {
             end = wire::to_status(prepared->error());
             return Step::kEnd;
         }
-        file_ = std::move((*prepared)->mapping);
-        nodes_on_chord_ = (*prepared)->nodes_on_chord;
-    } else if (sent_ == file_->bytes().size()) {
+        file_ = **std::move(prepared);
+    } else if (sent_ == file_.mapping->bytes().size()) {
         return Step::kEnd;
     }
     fill(chunk);
@@ -128,7 +129,7 @@ DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& en
 
 void DownloadSource::fill(v1::MeshChunk& chunk) {
     chunk.Clear();
-    const std::span<const std::byte> rest = file_->bytes().subspan(sent_);
+    const std::span<const std::byte> rest = file_.mapping->bytes().subspan(sent_);
     const std::span<const std::byte> part = rest.first(std::min(rest.size(), kChunkBytes));
     chunk.set_offset(sent_);
     chunk.set_data(part.data(), part.size());
@@ -137,7 +138,8 @@ void DownloadSource::fill(v1::MeshChunk& chunk) {
         chunk.set_file_name(file_name(mesh_, format_));
         chunk.set_content_type(content_type(format_));
         chunk.set_faces(mesh_.faces);
-        chunk.set_nodes_on_chord(nodes_on_chord_);
+        chunk.set_nodes_on_chord(file_.nodes_on_chord);
+        chunk.set_digest(file_.digest);
     }
     sent_ += part.size();
 }

@@ -21,6 +21,7 @@ public:
 
     struct File {
         std::optional<service::FileMapping> mapping;
+        std::string digest;
         std::uint32_t nodes_on_chord = 0;
     };
 
@@ -41,8 +42,7 @@ private:
     const service::MeshRef mesh_;
     const MeshFormat format_;
     const std::shared_ptr<Prepared> prepared_;
-    std::optional<service::FileMapping> file_;
-    std::uint32_t nodes_on_chord_ = 0;
+    File file_;  // without a mapping until it is prepared
     std::size_t sent_ = 0;
 };
 

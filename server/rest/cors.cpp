@@ -16,13 +16,13 @@ CorsAnswer check_origin(std::string_view origin, std::string_view host, std::spa
     if (!any && !named) return {true, {}};
     return {false,
             {{"Access-Control-Allow-Origin", any ? "*" : std::string(origin)},
-             {"Access-Control-Expose-Headers", "Content-Disposition, Content-Range, Retry-After"},
+             {"Access-Control-Expose-Headers", "Content-Disposition, Content-Range, ETag, Retry-After"},
              {"Vary", "Origin"}}};
 }
 
 HeaderFields preflight_fields(std::string_view allowed_methods) {
     return {{"Access-Control-Allow-Methods", std::string(allowed_methods)},
-            {"Access-Control-Allow-Headers", "Accept, Authorization, Content-Type, Range"},
+            {"Access-Control-Allow-Headers", "Accept, Authorization, Content-Type, If-Match, If-None-Match, If-Range, Range"},
             {"Access-Control-Max-Age", "600"}};
 }
 

@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "rest/accept.h"
+#include "rest/conditions.h"
 #include "rest/cors.h"
+#include "rest/freshness.h"
 #include "rest/message_shape.h"
 #include "rest/openapi.h"
 #include "wire/utf8.h"
@@ -131,11 +133,15 @@ Awaitable<void> Gateway::serve_options(Exchange& exchange, const std::string& al
 
 Awaitable<void> Gateway::serve_page(Exchange& exchange, const Page& page) {
     const std::string text = page.text();
+    const bool gzip = text.size() > kLongPage && accepts_encoding(exchange.list(http::field::accept_encoding), "gzip");
+    const Freshness freshness{page.digest.empty() ? "" : entity_tag(page.digest, gzip ? "gzip" : ""), page.cache_control,
+                              "Accept-Encoding"};
+    if (co_await answer_condition(exchange, freshness)) co_return;
     ResponseHead head;
     head.content_type = page.content_type;
-    head.fields = page.fields;
-    head.fields.emplace_back("Vary", "Accept-Encoding");
-    head.gzip = text.size() > kLongPage && accepts_encoding(exchange.header(http::field::accept_encoding), "gzip");
+    head.fields = fields_of(freshness);
+    head.fields.insert(head.fields.end(), page.fields.begin(), page.fields.end());
+    head.gzip = gzip;
     if (!exchange.body().at_end()) exchange.response().close_after();
     co_await exchange.response().respond(head, text);
 }

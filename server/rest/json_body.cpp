@@ -121,13 +121,13 @@ Awaitable<void> respond_json(Exchange& exchange, const pb::Message& message, Jso
     head.content_type = kJsonType;
     head.fields.emplace_back("Cache-Control", "no-store");
     head.fields.emplace_back("Vary", "Accept, Accept-Encoding");
-    head.gzip = text.size() > kLong && accepts_encoding(exchange.header(http::field::accept_encoding), "gzip");
+    head.gzip = text.size() > kLong && accepts_encoding(exchange.list(http::field::accept_encoding), "gzip");
     co_await exchange.response().respond(head, text);
 }
 
 bool accepts_json(const Exchange& exchange) {
     constexpr std::array kOffers{kJsonType};
-    return choose_media_type(exchange.header(http::field::accept), kOffers).has_value();
+    return choose_media_type(exchange.list(http::field::accept), kOffers).has_value();
 }
 
 Problem not_acceptable(std::string_view offered) {

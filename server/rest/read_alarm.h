@@ -8,8 +8,8 @@
 
 namespace vsplit::rest {
 
-/// Ends what is read from a stream when its time is up, and leaves the stream open for an answer: Beast's own deadline would close
-/// it. For one strand; lives as long as the read.
+/// Ends what is read from a stream when its time is up, and leaves the stream open for an answer: Beast's own deadline would
+/// close it. For one strand; lives as long as the read.
 class ReadAlarm {
 public:
     ReadAlarm(Stream& stream, std::chrono::steady_clock::time_point when)

@@ -73,8 +73,7 @@ TEST(JsonTest, NamesTheFieldThatDoesNotTakeItsValue) {
     expect(R"({"options": {"markedEdges": [1, 2.5]}})", "options.markedEdges[1]", "2.5" + whole);
     expect(R"({"options": {"sizing": {"spheres": [{}, {"size": "x"}]}}})", "options.sizing.spheres[1].size",
            "\"x\"; accepted is a number");
-    expect(R"({"options": {"mode": "fast"}})", "options.mode",
-           "\"fast\"; accepted is one of MODE_UNSPECIFIED, STRICT, EXTENDED");
+    expect(R"({"options": {"mode": "fast"}})", "options.mode", "\"fast\"; accepted is one of MODE_UNSPECIFIED, STRICT, EXTENDED");
     expect(R"({"options": {"freezeBoundary": 1}})", "options.freezeBoundary", "1; accepted is true or false");
     expect(R"({"options": 5})", "options", "5; accepted is an object; a query names its fields with a dot");
     expect(R"({"session": 5})", "session", "5; accepted is text");
@@ -88,7 +87,8 @@ TEST(JsonTest, NamesTheFieldThatThereIsNot) {
     EXPECT_NE(error.message.find("facesMin"), std::string::npos) << error.message;
     EXPECT_EQ(refusal_of(R"({"options.faces": 1})").field, "options.faces");
     // Names that look like what the parser says.
-    for (const char* name : {"(options.faces): invalid value 1 for type x", "): invalid value  for type ", "(", "()", "(options) a"}) {
+    for (const char* name :
+         {"(options.faces): invalid value 1 for type x", "): invalid value  for type ", "(", "()", "(options) a"}) {
         EXPECT_NE(refusal_of(std::string("{\"") + name + "\": 1}").message, "") << name;
     }
 }

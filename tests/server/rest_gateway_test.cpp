@@ -159,6 +159,85 @@ TEST_F(RestTest, DownloadsFilesAndRangesOfThem) {
     EXPECT_LT(packed.body.size(), whole.body.size());
 }
 
+TEST_F(RestTest, ADownloadIsKnownByItsBytes) {
+    const std::string id = session_of(icosphere(3));
+    const std::string target = "/v1/sessions/" + id + "/mesh?format=ply";
+    const HttpReply whole = ask("GET", target);
+    const std::string tag = whole.fields.at("ETag");
+    EXPECT_THAT(tag, ::testing::MatchesRegex("\"[0-9a-f]{64}\"")) << "and by nothing that tells the session";
+    EXPECT_EQ(whole.fields.at("Cache-Control"), "private, no-cache");
+    EXPECT_EQ(ask("HEAD", target).fields.at("ETag"), tag);
+    EXPECT_EQ(ask("GET", "/v1/sessions/" + session_of(icosphere(3)) + "/mesh?format=ply").fields.at("ETag"), tag);
+    EXPECT_NE(ask("GET", "/v1/sessions/" + id + "/mesh?format=stl").fields.at("ETag"), tag);
+    const std::string packed = ask("GET", target, {{"Accept-Encoding", "gzip"}}).fields.at("ETag");
+    EXPECT_NE(packed, tag) << "other bytes";
+    const HttpReply held = ask("GET", target, {{"If-None-Match", "\"other\""}, {"If-None-Match", "W/" + tag}});
+    EXPECT_EQ(held.status, 304U);
+    EXPECT_TRUE(held.whole && held.body.empty());
+    EXPECT_EQ(held.fields.at("ETag"), tag);
+    EXPECT_EQ(held.fields.count("Content-Length") + held.fields.count("Content-Type"), 0U);
+    EXPECT_EQ(ask("HEAD", target, {{"If-None-Match", tag}}).status, 304U);
+    EXPECT_EQ(ask("GET", target, {{"If-None-Match", packed}}).status, 200U);
+    EXPECT_EQ(ask("GET", target, {{"If-None-Match", packed}, {"Accept-Encoding", "gzip"}}).status, 304U);
+    EXPECT_TRUE(is_problem(ask("GET", target, {{"If-Match", "\"other\""}}), 412, "INVALID_OPTION"));
+    EXPECT_EQ(ask("GET", target, {{"If-Match", tag}}).body, whole.body);
+    ASSERT_EQ(ask("PUT", "/v1/sessions/" + id + "/mesh", {}, file_of(cube())).status, 200U);
+    EXPECT_EQ(ask("GET", target, {{"If-None-Match", tag}}).status, 200U) << "the mesh is another one";
+}
+
+TEST_F(RestTest, RangesAreGetsAndOfTheFileThatIsMeant) {
+    const std::string target = "/v1/sessions/" + session_of(icosphere(4)) + "/mesh?format=ply";
+    const HttpReply whole = ask("GET", target);
+    const std::string tag = whole.fields.at("ETag");
+    const HttpReply part = ask("GET", target, {{"Range", "Bytes=10-19"}, {"If-Range", tag}, {"Accept-Encoding", "gzip"}});
+    EXPECT_EQ(part.status, 206U);
+    EXPECT_EQ(part.body, whole.body.substr(10, 10));
+    EXPECT_EQ(part.fields.at("ETag"), tag);
+    for (const std::string& other : {std::string("\"other\""), "W/" + tag, std::string("Sat, 29 Oct 1994 19:43:31 GMT")}) {
+        EXPECT_EQ(ask("GET", target, {{"Range", "bytes=10-19"}, {"If-Range", other}}).status, 200U) << other;
+    }
+    EXPECT_EQ(ask("GET", target, {{"Range", "bytes=10-19"}, {"If-None-Match", tag}}).status, 304U);
+    const HttpReply all = ask("GET", target, {{"Range", "bytes=0-99999999999999999999"}});
+    EXPECT_EQ(all.status, 206U);
+    EXPECT_EQ(all.body, whole.body);
+    for (const char* range : {"bytes=10-19", "bytes=99999999-"}) {
+        const HttpReply head = ask("HEAD", target, {{"Range", range}});
+        EXPECT_EQ(head.status, 200U) << range;
+        EXPECT_EQ(head.fields.count("Content-Range"), 0U);
+        EXPECT_EQ(head.fields.at("Content-Length"), std::to_string(whole.body.size()));
+    }
+}
+
+TEST_F(RestTest, ADownloadIsOfATypeThatTheClientTakes) {
+    const std::string target = "/v1/sessions/" + session_of(cube()) + "/mesh";
+    const auto type_for = [&](const Fields& fields, const std::string& query = "") {
+        const HttpReply reply = ask("GET", target + query, fields);
+        return reply.status == 200 ? reply.fields.at("Content-Type") : std::to_string(reply.status);
+    };
+    EXPECT_EQ(type_for({}), "model/stl");
+    EXPECT_EQ(type_for({{"Accept", "*/*"}}), "model/stl");
+    EXPECT_EQ(type_for({{"Accept", "model/*"}}), "model/stl");
+    EXPECT_EQ(type_for({{"Accept", "application/octet-stream"}}), "application/octet-stream") << "what every file is";
+    EXPECT_EQ(type_for({{"Accept", "text/html"}, {"Accept", "text/plain;q=0.1"}}, "?format=off"), "text/plain");
+    const HttpReply refused = ask("GET", target, {{"Accept", "text/html"}});
+    EXPECT_TRUE(is_problem(refused, 406, "UNSUPPORTED"));
+    EXPECT_THAT(json_at(refused.body, "/detail"), HasSubstr("model/stl and application/octet-stream"));
+    EXPECT_EQ(json_at(refused.body, "/field"), "Accept");
+    EXPECT_EQ(type_for({{"Accept", "model/obj"}}), "406");
+    EXPECT_EQ(ask("HEAD", target, {{"Accept", "text/html"}}).status, 406U);
+}
+
+TEST_F(RestTest, PagesThatDoNotChangeAreNotSentTwice) {
+    const HttpReply first = ask("GET", "/openapi.json");
+    EXPECT_EQ(first.fields.at("Cache-Control"), "no-cache");
+    const HttpReply again = ask("GET", "/openapi.json", {{"If-None-Match", first.fields.at("ETag")}});
+    EXPECT_EQ(again.status, 304U);
+    EXPECT_TRUE(again.body.empty());
+    EXPECT_EQ(again.fields.at("Cache-Control"), "no-cache");
+    EXPECT_EQ(ask("GET", "/metrics").fields.count("ETag"), 0U);
+    EXPECT_EQ(ask("GET", "/metrics").fields.at("Cache-Control"), "no-store");
+}
+
 TEST_F(RestTest, MethodsAnswerAsAcceptAsks) {
     const std::string id = session_of(icosphere(3));
     const std::string target = "/v1/sessions/" + id + ":improve";
@@ -366,10 +445,10 @@ TEST(RestLimitsTest, ABodyThatStallsIsAnswered) {
     const std::string id = session_with(server.grpc().stub(), cube());
     const std::string head = " HTTP/1.1\r\nHost: t\r\nContent-Length: 10\r\n";
     const std::string chunks = " HTTP/1.1\r\nHost: t\r\nTransfer-Encoding: chunked\r\n\r\n5\r\nab";
-    for (const std::string& request :
-         {"POST /v1/sessions" + head + "\r\nab", "PUT /v1/sessions/" + id + "/mesh" + chunks,
-          "PUT /v1/sessions/" + id + "/mesh" + head + "Expect: 100-continue\r\n\r\n",
-          "POST /v1/sessions/" + id + ":improve" + head + "Content-Type: application/json\r\n\r\n{", "GET /v1/sessions" + head + "\r\n"}) {
+    for (const std::string& request : {"POST /v1/sessions" + head + "\r\nab", "PUT /v1/sessions/" + id + "/mesh" + chunks,
+                                       "PUT /v1/sessions/" + id + "/mesh" + head + "Expect: 100-continue\r\n\r\n",
+                                       "POST /v1/sessions/" + id + ":improve" + head + "Content-Type: application/json\r\n\r\n{",
+                                       "GET /v1/sessions" + head + "\r\n"}) {
         HttpClient client(server.port());
         client.send(request);
         const HttpReply reply = client.read_reply();
