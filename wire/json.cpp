@@ -85,7 +85,8 @@ std::optional<Error> error_of_field(std::string_view said, const pb::Descriptor&
         return misfit(joined(parent, said), "a list", type);
     }
     const std::size_t end = said.rfind(kType);
-    if (said.substr(0, kInvalid.size()) != kInvalid || end == std::string_view::npos || end < kInvalid.size()) return std::nullopt;
+    if (said.substr(0, kInvalid.size()) != kInvalid || end == std::string_view::npos || end < kInvalid.size())
+        return std::nullopt;
     const std::string_view value = said.substr(kInvalid.size(), end - kInvalid.size());
     if (value != "Starting an object on a scalar field") return misfit(std::string(parent), value, type);
     return misfit(joined(parent, said.substr(end + kType.size())), "an object", type);
