@@ -1,5 +1,6 @@
 #include "rest/gateway.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "rest/accept.h"
@@ -28,6 +29,11 @@ Problem wrong_method(const Exchange& exchange, std::string allowed) {
         405, Cause::kUnsupported, "the path has no " + wire::valid_utf8(exchange.method(), kQuotedBytes) + "; it has " + allowed);
     problem.allow = std::move(allowed);
     return problem;
+}
+
+// gRPC ends the program where metadata is anything else.
+bool is_metadata(std::string_view text) {
+    return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
 }
 
 bool is_get(const Exchange& exchange) { return exchange.method() == "GET" || exchange.method() == "HEAD"; }
@@ -85,6 +91,11 @@ ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& reques
 }
 
 Awaitable<void> Gateway::serve(Exchange& exchange) {
+    if (!is_metadata(exchange.header(http::field::authorization))) {
+        co_return co_await exchange.fail(
+            http_problem(400, Cause::kMalformedInput, "the header holds more than visible ASCII; accepted is Bearer TOKEN",
+                         "Authorization"));
+    }
     const std::string_view origin = exchange.header(http::field::origin);
     if (check_origin(origin, exchange.header(http::field::host), options_.cors_origins).refused) {
         co_return co_await exchange.fail(http_problem(403, Cause::kInvalidOption,

@@ -352,6 +352,9 @@ TEST_F(RestTest, RefusesWhatHttpHasANameFor) {
     EXPECT_TRUE(is_problem(ask("BREW", session), 501, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("GET", "/healthz", {{"X", std::string(20000, 'x')}}), 431, "LIMIT_EXCEEDED"));
     EXPECT_TRUE(is_problem(ask("GET", "/healthz", {{"Host", "two"}}), 400, "MALFORMED_INPUT"));
+    for (const char* token : {"Bearer \xff", "Bearer a\tb"}) {  // what gRPC would end the program for
+        EXPECT_TRUE(is_problem(ask("GET", session, {{"Authorization", token}}), 400, "MALFORMED_INPUT"));
+    }
 }
 
 TEST_F(RestTest, AFieldThatDoesNotTakeItsValueIsNamed) {
