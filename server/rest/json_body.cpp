@@ -95,6 +95,7 @@ Awaitable<std::variant<std::unique_ptr<pb::Message>, Problem>> read_request(Exch
         }
         const std::string_view type = exchange.header(http::field::content_type);
         if (!type.empty() && !is_json(type)) co_return wrong_body_type(exchange, kJsonType);
+        if (std::optional<Problem> coded = refuse_coding(exchange)) co_return *std::move(coded);
         const auto parse = [&] { return take_body(route, text, *request); };
         Status parsed = Done{};
         if (text.size() < kShort) {
@@ -133,6 +134,13 @@ bool accepts_json(const Exchange& exchange) {
 Problem not_acceptable(std::string_view offered) {
     return http_problem(406, Cause::kUnsupported, "nothing that Accept names is offered here; offered is " + std::string(offered),
                         "Accept");
+}
+
+std::optional<Problem> refuse_coding(const Exchange& exchange) {
+    const std::string_view coding = exchange.header(http::field::content_encoding);
+    if (coding.empty() || same_token(coding, "identity")) return std::nullopt;
+    return http_problem(415, Cause::kUnsupported, "the body has a Content-Encoding; accepted is the body as it is",
+                        "Content-Encoding");
 }
 
 Problem wrong_body_type(const Exchange& exchange, std::string_view accepted) {

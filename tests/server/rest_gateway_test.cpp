@@ -345,6 +345,8 @@ TEST_F(RestTest, RefusesWhatHttpHasANameFor) {
         is_problem(ask("POST", session + ":improve", {{"Accept", "text/html, application/json;q=0"}}), 406, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("POST", session + ":improve", {{"Content-Type", "text/plain"}}, "{}"), 415, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("PUT", session + "/mesh", kJson, "{}"), 415, "UNSUPPORTED"));
+    const Fields packed{{"Content-Type", "application/json"}, {"Content-Encoding", "gzip"}};
+    EXPECT_TRUE(is_problem(ask("POST", session + ":improve", packed, "{}"), 415, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("POST", session + ":improve", kJson, "{\"optoins\": {}}"), 400, "INVALID_OPTION"));
     EXPECT_TRUE(is_problem(ask("GET", session + "/quality?worst=many"), 400, "INVALID_OPTION"));
     EXPECT_TRUE(is_problem(ask("GET", session + "?x=%zz"), 400, "MALFORMED_INPUT"));

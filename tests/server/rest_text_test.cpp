@@ -61,6 +61,7 @@ TEST(TargetTest, TakesPathAndQueryApart) {
     EXPECT_EQ(target->query[1].value, "a b&");
     EXPECT_EQ(target->query[2].name, "flag");
     EXPECT_EQ(target->query[3].value, "\xC3\xA9");
+    EXPECT_EQ(parse_target("HTTP://host/a")->path, "/a");
     for (const char* bad : {"", "*", "a", "host:80", "/?a=%", "/?%g0"}) EXPECT_FALSE(parse_target(bad)) << bad;
     std::string many = "/?";
     for (int i = 0; i < 1001; ++i) many += "a&";
