@@ -15,9 +15,6 @@ namespace pb = google::protobuf;
 
 namespace {
 
-// What takes a thread that speaks to clients no more than a moment.
-constexpr std::size_t kShort = std::size_t{64} * 1024;
-
 // Worth compressing.
 constexpr std::size_t kLong = 1400;
 
@@ -98,7 +95,7 @@ Awaitable<std::variant<std::unique_ptr<pb::Message>, Problem>> read_request(Exch
         if (std::optional<Problem> coded = refuse_coding(exchange)) co_return *std::move(coded);
         const auto parse = [&] { return take_body(route, text, *request); };
         Status parsed = Done{};
-        if (text.size() < kShort) {
+        if (text.size() < kMoment) {
             parsed = parse();
         } else {
             parsed = co_await off_thread(works.pool, parse);
@@ -112,7 +109,7 @@ Awaitable<std::variant<std::unique_ptr<pb::Message>, Problem>> read_request(Exch
 
 Awaitable<std::string> write_json(const pb::Message& message, JsonWorks works) {
     const auto write = [&message] { return wire::to_json(message) + '\n'; };
-    if (message.ByteSizeLong() < kShort) co_return write();
+    if (message.ByteSizeLong() < kMoment) co_return write();
     co_return co_await off_thread(works.pool, write);
 }
 
