@@ -93,9 +93,8 @@ ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& reques
 
 Awaitable<void> Gateway::serve(Exchange& exchange) {
     if (!is_metadata(exchange.header(http::field::authorization))) {
-        co_return co_await exchange.fail(
-            http_problem(400, Cause::kMalformedInput, "the header holds more than visible ASCII; accepted is Bearer TOKEN",
-                         "Authorization"));
+        co_return co_await exchange.fail(http_problem(
+            400, Cause::kMalformedInput, "the header holds more than visible ASCII; accepted is Bearer TOKEN", "Authorization"));
     }
     const std::string_view origin = exchange.header(http::field::origin);
     if (check_origin(origin, exchange.header(http::field::host), options_.cors_origins).refused) {
