@@ -361,10 +361,11 @@ TEST_F(RestTest, RefusesWhatHttpHasANameFor) {
 
 TEST_F(RestTest, AFieldThatDoesNotTakeItsValueIsNamed) {
     const std::string target = "/v1/sessions/" + session_of(cube()) + ":improve";
-    for (const std::string value : {"1.5", "-5", "1e30", "abc"}) {
-        const std::string quote = value == "abc" ? "\"" : "";
-        for (const HttpReply& reply : {ask("POST", target, kJson, R"({"options": {"faces": )" + quote + value + quote + "}}"),
-                                       ask("POST", target + "?options.faces=" + value)}) {
+    for (const std::string value : {"1.5", "-5", "1e30", "\"abc\""}) {
+        const std::string plain = value == "\"abc\"" ? "abc" : value;
+        const std::string body = std::string(R"({"options": {"faces": )").append(value).append("}}");
+        const std::string query = std::string("?options.faces=").append(plain);
+        for (const HttpReply& reply : {ask("POST", target, kJson, body), ask("POST", target + query)}) {
             EXPECT_TRUE(is_problem(reply, 400, "INVALID_OPTION"));
             EXPECT_EQ(json_at(reply.body, "/field"), "options.faces");
             EXPECT_THAT(json_at(reply.body, "/detail"), HasSubstr("a whole number from 0 to 4294967295"));
@@ -448,12 +449,19 @@ TEST(RestLimitsTest, ABodyThatStallsIsAnswered) {
     options.limits.stall_time = std::chrono::milliseconds(300);
     RestFixture server(small_server(), options);
     const std::string id = session_with(server.grpc().stub(), cube());
-    const std::string head = " HTTP/1.1\r\nHost: t\r\nContent-Length: 10\r\n";
-    const std::string chunks = " HTTP/1.1\r\nHost: t\r\nTransfer-Encoding: chunked\r\n\r\n5\r\nab";
-    for (const std::string& request : {"POST /v1/sessions" + head + "\r\nab", "PUT /v1/sessions/" + id + "/mesh" + chunks,
-                                       "PUT /v1/sessions/" + id + "/mesh" + head + "Expect: 100-continue\r\n\r\n",
-                                       "POST /v1/sessions/" + id + ":improve" + head + "Content-Type: application/json\r\n\r\n{",
-                                       "GET /v1/sessions" + head + "\r\n"}) {
+    const std::string session = "/v1/sessions/" + id;
+    struct Stalling {
+        std::string target;
+        const char* rest;
+    };
+    for (const auto& [target, rest] : {
+             Stalling{"POST /v1/sessions", "Content-Length: 10\r\n\r\nab"},
+             Stalling{"PUT " + session + "/mesh", "Transfer-Encoding: chunked\r\n\r\n5\r\nab"},
+             Stalling{"PUT " + session + "/mesh", "Content-Length: 10\r\nExpect: 100-continue\r\n\r\n"},
+             Stalling{"POST " + session + ":improve", "Content-Length: 10\r\nContent-Type: application/json\r\n\r\n{"},
+             Stalling{"GET /v1/sessions", "Content-Length: 10\r\n\r\n"},
+         }) {
+        const std::string request = std::string(target).append(" HTTP/1.1\r\nHost: t\r\n").append(rest);
         HttpClient client(server.port());
         client.send(request);
         const HttpReply reply = client.read_reply();
