@@ -96,8 +96,16 @@ Awaitable<void> Gateway::serve(Exchange& exchange) {
         co_return co_await exchange.fail(http_problem(
             400, Cause::kMalformedInput, "the header holds more than visible ASCII; accepted is Bearer TOKEN", "Authorization"));
     }
+    const std::string_view host = exchange.header(http::field::host);
+    if (options_.own_hosts_only && !is_own_host(host, options_.cors_origins)) {
+        co_return co_await exchange.fail(
+            http_problem(421, Cause::kInvalidOption,
+                         "this server is not known as " + wire::valid_utf8(host, kQuotedBytes) +
+                             "; accepted are addresses, localhost, and the hosts of vsplitd --cors-origin",
+                         "Host"));
+    }
     const std::string_view origin = exchange.header(http::field::origin);
-    if (check_origin(origin, exchange.header(http::field::host), options_.cors_origins).refused) {
+    if (check_origin(origin, host, options_.cors_origins).refused) {
         co_return co_await exchange.fail(http_problem(403, Cause::kInvalidOption,
                                                       "pages of " + wire::valid_utf8(origin, kQuotedBytes) +
                                                           " may not use this server; vsplitd --cors-origin allows an origin",

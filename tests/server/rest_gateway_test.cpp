@@ -409,6 +409,21 @@ TEST_F(RestTest, PagesOfOtherOriginsAreRefusedUntilTheyAreAllowed) {
     EXPECT_EQ(test::ask(open.port(), "GET", "/v1/sessions", {{"Origin", "https://third.example"}}).status, 403U);
 }
 
+// What a page of another site is after its name was pointed at this machine: of the same origin, to the browser.
+TEST(RestHostTest, AServerThatTrustsWhoReachesItAnswersToItsOwnNamesAlone) {
+    rest::RestOptions options;
+    options.own_hosts_only = true;
+    RestFixture server(small_server(), options);
+    const auto ask_as = [&](const std::string& host) {
+        HttpClient client(server.port());
+        client.send(std::string("GET /v1/sessions HTTP/1.1\r\nHost: ").append(host).append("\r\n\r\n"));
+        return client.read_reply();
+    };
+    EXPECT_TRUE(is_problem(ask_as("evil.example:8080"), 421, "INVALID_OPTION"));
+    EXPECT_EQ(ask_as("127.0.0.1:8080").status, 200U);
+    EXPECT_EQ(ask_as("localhost").status, 200U);
+}
+
 TEST(RestLimitsTest, LimitsThatPassAre429AndSayWhenToTryAgain) {
     service::ServiceOptions options = small_server();
     options.limits.sessions = 1;

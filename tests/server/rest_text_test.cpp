@@ -8,6 +8,7 @@
 #include "rest/accept.h"
 #include "rest/byte_range.h"
 #include "rest/conditions.h"
+#include "rest/cors.h"
 #include "rest/path_template.h"
 #include "rest/percent.h"
 #include "rest/target.h"
@@ -128,6 +129,23 @@ TEST(ConditionsTest, AreJudgedByTheEntityTag) {
     EXPECT_TRUE(range_holds(tag, tag));
     for (const char* other : {"\"x\"", "W/\"abc\"", "*", "Sat, 29 Oct 1994 19:43:31 GMT"})
         EXPECT_FALSE(range_holds(other, tag)) << other;
+}
+
+TEST(CorsTest, AHostIsItsOwnByAddressAndByNamesThatAreAllowed) {
+    for (const char* own :
+         {"", "127.0.0.1", "127.0.0.1:8080", "[::1]:8080", "[::1]", "localhost", "LocalHost:1", "a.localhost:80", "10.1.2.3"}) {
+        EXPECT_TRUE(is_own_host(own, {})) << own;
+    }
+    for (const char* other : {"evil.example", "evil.example:8080", "127.0.0.1.evil.example", "localhost.evil.example",
+                              "xlocalhost", ":80", "a b", "0x7f.1"}) {
+        EXPECT_FALSE(is_own_host(other, {})) << other;
+    }
+    const std::array<std::string, 2> allowed{"https://mesh.example", "http://mesh.example:81"};
+    EXPECT_TRUE(is_own_host("Mesh.example", allowed));
+    EXPECT_TRUE(is_own_host("mesh.example:81", allowed));
+    EXPECT_FALSE(is_own_host("mesh.example:82", allowed));
+    const std::array<std::string, 1> any{"*"};
+    EXPECT_TRUE(is_own_host("evil.example", any));
 }
 
 TEST(PercentTest, Decodes) {
