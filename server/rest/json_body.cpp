@@ -40,8 +40,8 @@ Awaitable<TextOrProblem> read_text(Exchange& exchange, JsonShare& share) {
         // Taken as it comes, not as it is announced: a client that only claims much holds nothing.
         constexpr std::size_t kPart = std::size_t{64} * 1024;
         const std::size_t room = std::min<std::uint64_t>(kPart, declared.value_or(limits.json_bytes + 1) - text.size());
-        if (!share.grow(room)) co_return too_many_now();
         const std::size_t before = text.size();
+        if (!share.hold(before + room)) co_return too_many_now();
         text.resize(before + room);
         const Expected<std::size_t> got = co_await exchange.body().read_some({text.data() + before, room});
         if (!got) co_return problem_of(got.error());

@@ -488,6 +488,17 @@ TEST(RestLimitsTest, ABodyThatStallsIsAnswered) {
     EXPECT_EQ(json_at(ask(server.port(), "GET", "/v1/sessions/" + id).body, "/source/faces"), "12");
 }
 
+TEST(RestLimitsTest, AJsonBodyCountsOnceHoweverItComes) {
+    rest::RestOptions options;
+    options.limits.all_json_bytes = std::uint64_t{1} << 20;
+    RestFixture server(small_server(), options);
+    HttpClient client(server.port());
+    const std::string body = "{}" + std::string(2000, ' ');
+    client.send("POST /v1/sessions HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n");
+    client.send(chunked(body, 1));
+    EXPECT_EQ(client.read_reply().status, 200U);
+}
+
 TEST(RestShutdownTest, LetsWhatIsBeingAnsweredEnd) {
     RestFixture server;
     HttpClient idle(server.port());
