@@ -101,6 +101,9 @@ TEST_F(RestTest, OnlyChunkedIsATransferCoding) {
         EXPECT_TRUE(reply.status == 400 || reply.status == 501) << coding << ": " << reply.status;
         EXPECT_EQ(client.read_line(), "") << coding << ": a second answer";
     }
+    HttpClient old(server_.port());  // whose proxies know no chunks
+    old.send("POST /v1/sessions HTTP/1.0\r\nConnection: keep-alive\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n");
+    EXPECT_EQ(old.read_reply().status, 501U);
     EXPECT_EQ(server_.grpc().service().load().sessions, 0U);
 }
 
