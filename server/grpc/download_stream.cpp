@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "guard/digest.h"
 #include "service/guarded.h"
 #include "vsplit/base/execution_context.h"
 #include "vsplit/io/second_order.h"
@@ -44,6 +45,7 @@ Expected<DownloadSource::File> write_file(const service::PickedMesh& picked, Mes
     Expected<std::string> text = surface == nullptr ? Expected<std::string>(write_mesh(*opened->mesh, format))
                                                     : write_order_2(*opened->mesh, format, *surface, file.nodes_on_chord);
     if (!text) return text.error();
+    file.digest = guard::hex_digits(guard::digest_of(*text));
     if (Expected<service::FileMapping> mapped = map_file(*text, directory); mapped) {
         file.mapping.emplace(*std::move(mapped));
     } else {
@@ -120,7 +122,7 @@ Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(ser
 }
 
 DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& end) {
-    if (!file_) {
+    if (!file_.mapping) {
         std::optional<Expected<File>> prepared = prepared_->take();
         if (!prepared) return Step::kWait;
         if (!*prepared) {
@@ -137,7 +139,7 @@ DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& en
 
 void DownloadSource::fill(v1::MeshChunk& chunk) {
     chunk.Clear();
-    const std::span<const std::byte> rest = file_->bytes().subspan(sent_);
+    const std::span<const std::byte> rest = file_.mapping->bytes().subspan(sent_);
     const std::span<const std::byte> part = rest.first(std::min(rest.size(), kChunkBytes));
     chunk.set_offset(sent_);
     chunk.set_data(part.data(), part.size());
@@ -147,6 +149,7 @@ void DownloadSource::fill(v1::MeshChunk& chunk) {
         chunk.set_content_type(content_type(format_));
         chunk.set_faces(file_->mesh.faces);
         chunk.set_nodes_on_chord(file_->nodes_on_chord);
+        chunk.set_digest(file_->digest);
     }
     sent_ += part.size();
 }

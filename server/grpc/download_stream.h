@@ -24,7 +24,8 @@ public:
     struct File {
         service::MeshRef mesh;  ///< as written
         std::optional<service::FileMapping> mapping;
-        std::string text;  ///< instead, where there is no disk to write to
+        std::string text;    ///< instead, where there is no disk to write to
+        std::string digest;  ///< SHA-256
         std::uint32_t nodes_on_chord = 0;
 
         [[nodiscard]] std::span<const std::byte> bytes() const {

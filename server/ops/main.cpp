@@ -130,7 +130,9 @@ Expected<std::unique_ptr<rest::RestServer>> start_rest(const ServerOptions& opti
         metrics.http_ended(record);
         log_http(record);
     };
-    return rest::RestServer::start(address->host, address->port, std::move(backend), options.rest, observe, std::move(tls));
+    rest::RestOptions rest = options.rest;
+    rest.own_hosts_only = tls == nullptr && options.token_file.empty() && is_loopback(*address);
+    return rest::RestServer::start(address->host, address->port, std::move(backend), std::move(rest), observe, std::move(tls));
 }
 
 void drain(rpc::GrpcServer& server, rest::RestServer* rest, std::chrono::seconds grace) {

@@ -9,9 +9,9 @@
 #include <system_error>
 #include <utility>
 
+#include "guard/digest.h"
 #include "service/disk_error.h"
 #include "service/limits.h"
-#include "store/sha256.h"
 
 namespace vsplit::store {
 namespace {
@@ -46,6 +46,8 @@ private:
     void* address_;
     std::size_t size_;
 };
+
+std::string key_of(std::span<const Bytes> parts) { return guard::hex_digits(guard::digest_of(parts)); }
 
 std::uint64_t size_of(std::span<const Bytes> parts) {
     std::uint64_t size = 0;
@@ -125,7 +127,7 @@ void FileBlobStore::give_back(std::uint64_t bytes) {
 }
 
 Expected<BlobEntry> FileBlobStore::put(std::span<const Bytes> parts) {
-    BlobEntry blob{sha256(parts), size_of(parts)};
+    BlobEntry blob{key_of(parts), size_of(parts)};
     const fs::path place = place_of(blob.key);
     struct stat about {};
     if (stat(place.c_str(), &about) == 0) {
@@ -170,7 +172,7 @@ Expected<std::shared_ptr<const Blob>> FileBlobStore::get(const std::string& key)
     Expected<std::shared_ptr<const Blob>> blob = map_file(place_of(key));
     if (!blob) return blob;
     const Bytes bytes = (*blob)->bytes();
-    if (sha256({&bytes, 1}) == key) return blob;
+    if (key_of({&bytes, 1}) == key) return blob;
     return Error{Cause::kCorrupt, "the data directory: " + key + " does not hold the bytes that were kept under this name", ""};
 }
 
