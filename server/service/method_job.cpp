@@ -91,6 +91,7 @@ JobOutcome MethodJob::compute() {
 }
 
 JobOutcome MethodJob::make(const MethodRequest& request, const TriangleMesh& mesh) {
+    if (Status room = session_->require_room(); !room) return room.error();
     if (Status room = make_room(mesh.face_count()); !room) return room.error();
     Expected<MethodResult> result = std::visit([&](const auto& options) { return apply(options, mesh); }, request.options);
     if (!result) return result.error();

@@ -76,6 +76,11 @@ Status Session::require_idle_locked() const {
                  "session"};
 }
 
+Status Session::require_room() const {
+    const std::lock_guard lock(mutex_);
+    return require_room_locked();
+}
+
 Status Session::require_room_locked() const {
     const std::uint32_t limit = host_.options.limits.representations;
     if (representations_.size() < limit) return Done{};

@@ -51,6 +51,9 @@ public:
     [[nodiscard]] Status replace_source(const std::shared_ptr<const SourceMesh>& before,
                                         std::shared_ptr<const SourceMesh> source);
 
+    /// Whether there may be one more representation. \return LIMIT_EXCEEDED.
+    [[nodiscard]] Status require_room() const;
+
     /// What was made for the same request before, if it was. O(representations).
     [[nodiscard]] SessionSnapshot::RepresentationPointer find_made(const MethodRequest& request) const;
 
