@@ -99,8 +99,9 @@ TEST_F(DataDirTest, AnIndexThatLostARowOfItsPagesIsDamaged) {
     }
     {
         std::fstream file(directory_ / "sessions.db", std::ios::in | std::ios::out);
-        file.seekp(8 * 4096);
-        file << std::string(3 * 4096, '\xa5');
+        constexpr std::streamoff kPage = 4096;
+        file.seekp(8 * kPage);
+        file << std::string(std::size_t{3} * kPage, '\xa5');
     }
     ASSERT_TRUE(open());
     EXPECT_THAT(told_, HasSubstr("put aside untouched"));
