@@ -29,6 +29,10 @@ Expected<EventSourcePointer> MethodSource::begin(service::MeshingService& servic
     if (!choice) return choice.error();
     auto news = std::make_shared<News>();
     service::JobEvents events;
+    events.on_noted = [news, wake] {
+        news->noted = true;
+        wake();
+    };
     events.on_progress = [news, wake](const Progress& progress) {
         news->progress.put(wire::to_proto(progress));
         wake();
@@ -50,6 +54,7 @@ void MethodSource::cancel() {
 MethodSource::Step MethodSource::next(v1::ProgressiveEvent& event, grpc::Status& end) {
     if (ended_) return Step::kEnd;
     if (!begun_) {
+        if (!news_->noted) return Step::kWait;
         begun_ = true;
         *event.mutable_progress() = wire::to_proto(Progress{"queued", 0, 0});
         return Step::kMessage;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,7 @@ public:
 
 private:
     struct News {
+        std::atomic<bool> noted = false;
         Mailbox<v1::Progress> progress;
         Mailbox<service::JobOutcome> outcome;
     };

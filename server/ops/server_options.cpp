@@ -120,10 +120,12 @@ private:
         add("--max-job-seconds", limits.job_seconds, "Seconds that one method runs");
         app_.add_option("--max-memory-bytes", limits.memory_bytes,
                         "Bytes of meshes, representations and methods in memory; 0: three quarters of what there is")
-            ->group(kGroup);
+            ->group(kGroup)
+            ->check(CLI::NonNegativeNumber);
         app_.add_option("--max-disk-bytes", options_.max_disk_bytes,
                         "Bytes of meshes and representations in --data-dir; 0: no limit")
-            ->group(kGroup);
+            ->group(kGroup)
+            ->check(CLI::NonNegativeNumber);
         add("--max-rpcs", options_.max_rpcs, "Rpcs at a time");
         add("--max-streams", options_.max_streams, "Rpcs of one gRPC connection at a time; more wait at the client")
             ->check(CLI::Range(1U, std::uint32_t{1} << 30));

@@ -1,5 +1,7 @@
 #include "service/memory_use.h"
 
+#include <variant>
+
 #include "vsplit/io/mesh_format.h"
 
 namespace vsplit::service {
@@ -17,7 +19,9 @@ constexpr std::uint64_t kOtherFace = 15;
 }  // namespace
 
 std::uint64_t memory_of(const TriangleMesh& mesh) {
-    return mesh.positions.size() * sizeof(Vec3) + mesh.faces.size() * sizeof(Triangle) +
+    std::uint64_t names = 0;
+    for (const FaceSet& set : mesh.sets) names += sizeof(FaceSet) + set.name.size() + set.regions.size() * sizeof(std::uint32_t);
+    return names + mesh.positions.size() * sizeof(Vec3) + mesh.faces.size() * sizeof(Triangle) +
            mesh.regions.size() * sizeof(std::uint32_t);
 }
 
@@ -25,6 +29,15 @@ std::uint64_t memory_of(const MultiresMesh& mrr) {
     const RecordSpan records = mrr.records;
     return memory_of(mrr.base) + records.kinds.size_bytes() + records.splits.size_bytes() + records.flips.size_bytes() +
            records.moves.size_bytes() + (mrr.border_splits.size() + mrr.regions.size()) * sizeof(std::uint32_t);
+}
+
+std::uint64_t memory_of(const MethodOptions& options) {
+    return std::visit(
+        [](const auto& o) {
+            const std::size_t field = o.sizing ? o.sizing->field.size() : 0;
+            return (o.marked_edges.size() + o.regions.size()) * sizeof(std::uint32_t) + field * sizeof(double);
+        },
+        options);
 }
 
 std::uint64_t memory_to_read(std::span<const std::byte> file, bool repair) {

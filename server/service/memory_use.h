@@ -5,14 +5,18 @@
 #include <span>
 
 #include "vsplit/mesh/triangle_mesh.h"
+#include "vsplit/method/method_options.h"
 #include "vsplit/mrr/multires_mesh.h"
 
 namespace vsplit::service {
 
-// What things take in memory, bytes; names and the like left out. O(1).
+// What things take in memory, bytes.
 
 [[nodiscard]] std::uint64_t memory_of(const TriangleMesh& mesh);
 [[nodiscard]] std::uint64_t memory_of(const MultiresMesh& mrr);
+
+/// What a request holds: arrays may be as large as a mesh.
+[[nodiscard]] std::uint64_t memory_of(const MethodOptions& options);
 
 /// What reading a file takes while it goes on, the mesh included; a repair takes more.
 [[nodiscard]] std::uint64_t memory_to_read(std::span<const std::byte> file, bool repair);

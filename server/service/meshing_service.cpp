@@ -72,6 +72,7 @@ Expected<RunningMethod> MeshingService::start(std::string_view session, const Me
     if (Status room = require_room_in_queue(); !room) return room.error();
     if (Status ok = std::visit([](const auto& options) { return check_options(options); }, request.options); !ok)
         return ok.error();
+    const auto noted = events.on_noted;
     auto note = std::make_shared<JobNote>(*archive_, (*found)->number(), request);
     const auto make = [&](const SessionSnapshot& now) -> Expected<std::shared_ptr<Job>> {
         Expected<PickedMesh> source = PickedMesh::pick(now, request.source);
@@ -83,7 +84,11 @@ Expected<RunningMethod> MeshingService::start(std::string_view session, const Me
     };
     Expected<std::shared_ptr<Job>> job = (*found)->enqueue(request.options, make);
     if (!job) return job.error();
-    static_cast<void>(disk_.submit([note] { note->write(); }));
+    const bool taken = disk_errand([note, noted] {
+        note->write();
+        if (noted) noted();
+    });
+    if (!taken && noted) noted();
     return RunningMethod{*found, *std::move(job)};
 }
 

@@ -1,5 +1,8 @@
 #include "service/method_job.h"
 
+#include <algorithm>
+#include <limits>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -94,7 +97,7 @@ JobOutcome MethodJob::make(const MethodRequest& request, const TriangleMesh& mes
     if (Status room = session_->require_room(); !room) return room.error();
     if (Status room = make_room(mesh.face_count()); !room) return room.error();
     Expected<MethodResult> result = std::visit([&](const auto& options) { return apply(options, mesh); }, request.options);
-    if (!result) return result.error();
+    if (!result) return explained(result.error());
     if (const std::optional<Error> why = stopped()) return *why;
     const auto made = session_->add_representation(request, *std::move(result));
     if (!made) return made.error();
@@ -114,8 +117,25 @@ Status MethodJob::make_room(std::uint64_t faces) {
     return Done{};
 }
 
+/// Faces that all the memory there may be would do for: to be known before subdivision takes any.
+std::uint64_t MethodJob::faces_in_memory() const {
+    const std::uint64_t bytes = host_.options.limits.memory_bytes;
+    return bytes == 0 ? std::numeric_limits<std::uint32_t>::max() : bytes / memory_to_simplify(1);
+}
+
 MethodLimits MethodJob::limits() {
-    return {host_.options.limits.faces_subdivided, [this](std::uint32_t faces) { return make_room(faces); }};
+    const std::uint64_t most = std::min<std::uint64_t>(host_.options.limits.faces_subdivided, faces_in_memory());
+    return {static_cast<std::uint32_t>(most), [this](std::uint32_t faces) { return make_room(faces); }};
+}
+
+/// With the server's limit by its name, where the method knows but a number.
+Error MethodJob::explained(Error error) const {
+    const Limits& limits = host_.options.limits;
+    if (error.cause != Cause::kLimitExceeded || faces_in_memory() >= limits.faces_subdivided) return error;
+    if (error.message.find("max_memory_bytes") == std::string::npos) {
+        error.message += "; the server's limit max_memory_bytes, " + std::to_string(limits.memory_bytes) + ", allows no more";
+    }
+    return error;
 }
 
 Expected<MethodResult> MethodJob::apply(const ImproveOptions& options, const TriangleMesh& mesh) {

@@ -27,6 +27,7 @@ using JobOutcome = Expected<MadeRepresentation>;
 
 /// Who hears of a job. Called without any lock held, from whatever thread; must not block.
 struct JobEvents {
+    std::function<void()> on_noted;                    ///< once, first: should the server end now, that will be known
     std::function<void(const Progress&)> on_progress;  ///< at most about 20 a second
     std::function<void(const JobOutcome&)> on_done;    ///< once, last; the session is free for the next by then
 };
@@ -56,7 +57,9 @@ private:
     void end_note(const JobOutcome& outcome) const;
     [[nodiscard]] Expected<MethodResult> apply(const ImproveOptions& options, const TriangleMesh& mesh);
     [[nodiscard]] Expected<MethodResult> apply(const ControlOptions& options, const TriangleMesh& mesh);
+    [[nodiscard]] std::uint64_t faces_in_memory() const;
     [[nodiscard]] MethodLimits limits();
+    [[nodiscard]] Error explained(Error error) const;
     [[nodiscard]] std::optional<Error> stopped() const;
     void tell(const Progress& progress);
     void record(const JobOutcome& outcome, std::chrono::steady_clock::time_point began) const;

@@ -31,7 +31,8 @@ public:
 private:
     const std::string id_;
     const MethodRequest asked_;
-    const MethodFigures figures_;
+    const MethodFigures figures_;  // without what may be as large as the mesh, which nobody is told
+    const MemoryBudget::Share request_share_;
     const MrrExtent extent_;
     const std::shared_ptr<Kept<Levels>> levels_;
 };

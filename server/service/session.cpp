@@ -48,7 +48,19 @@ void Session::touch() {
 
 bool Session::expired() const {
     const std::lock_guard lock(mutex_);
-    return Clock::now() >= expires_ && !changing_ && queue_->idle();
+    return Clock::now() >= expires_ && held_ == 0 && !changing_ && queue_->idle();
+}
+
+std::shared_ptr<void> Session::hold(const std::shared_ptr<Session>& session) {
+    {
+        const std::lock_guard lock(session->mutex_);
+        ++session->held_;
+    }
+    return {session.get(), [session](void*) {
+                session->touch();
+                const std::lock_guard lock(session->mutex_);
+                --session->held_;
+            }};
 }
 
 std::optional<Session::Clock::time_point> Session::take_expiry() {

@@ -37,6 +37,9 @@ public:
     /// Unused for longer than its time, with no job that runs or waits.
     [[nodiscard]] bool expired() const;
 
+    /// The session does not expire while what this returns is there.
+    [[nodiscard]] static std::shared_ptr<void> hold(const std::shared_ptr<Session>& session);
+
     /// When it expires, where that was put off since it was asked last.
     [[nodiscard]] std::optional<Clock::time_point> take_expiry();
 
@@ -102,6 +105,7 @@ private:
     mutable std::mutex mutex_;
     Clock::time_point expires_;
     bool used_ = false;  // since take_expiry
+    int held_ = 0;
     bool closed_ = false;
     bool changing_ = false;  // an upload is on its way into the archive
     std::shared_ptr<const SourceMesh> source_;

@@ -32,6 +32,7 @@ Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::strin
                                              const Caller& caller) {
     const Expected<std::shared_ptr<Session>> found = service.sessions().find(session, caller.owner);
     if (!found) return found.error();
+    const std::shared_ptr<void> held = Session::hold(*found);
     if (Status idle = (*found)->require_idle(); !idle) return idle.error();
     const Expected<std::shared_ptr<const SourceMesh>> before = source_of(**found);
     if (!before) return before.error();

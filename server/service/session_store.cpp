@@ -167,14 +167,17 @@ Expected<SessionPage> SessionStore::list(std::uint32_t page_size, std::string_vi
 
 std::size_t SessionStore::remove_expired() {
     const std::vector<std::shared_ptr<Session>> taken = take_expired();
-    if (taken.empty()) return 0;
+    for (const std::shared_ptr<Session>& session : taken) session->close({Cause::kCancelled, "the session expired", "session"});
     std::vector<std::uint64_t> numbers;
-    for (const std::shared_ptr<Session>& session : taken) {
-        session->close({Cause::kCancelled, "the session expired", "session"});
-        numbers.push_back(session->number());
+    {
+        const std::lock_guard lock(mutex_);
+        for (const std::shared_ptr<Session>& session : taken) expired_.push_back(session->number());
+        numbers.swap(expired_);
     }
-    // Where this fails they come back with the next start, and expire then.
-    static_cast<void>(host_.archive.remove(numbers));
+    if (!numbers.empty() && !host_.archive.remove(numbers)) {  // a full disk, say: the next sweep tries again
+        const std::lock_guard lock(mutex_);
+        expired_.insert(expired_.end(), numbers.begin(), numbers.end());
+    }
     return taken.size();
 }
 

@@ -82,6 +82,7 @@ private:
     std::map<std::string, std::uint32_t, std::less<>> by_owner_;  // sessions, with those on their way; none is no entry
     std::size_t count_ = 0;                                       // sessions, with those on their way
     std::uint64_t last_number_ = 0;
+    std::vector<std::uint64_t> expired_;  // sessions that the archive has still to forget
 };
 
 }  // namespace vsplit::service

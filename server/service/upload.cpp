@@ -17,7 +17,12 @@ Error too_large(std::uint64_t bytes, const Limits& limits, const char* field) {
 
 Upload::Upload(std::shared_ptr<Session> session, const UploadSettings& settings, const Limits& limits, MemoryBudget& memory,
                TempFile file)
-    : session_(std::move(session)), settings_(settings), limits_(limits), memory_(&memory), file_(std::move(file)) {}
+    : session_(std::move(session)),
+      held_(Session::hold(session_)),
+      settings_(settings),
+      limits_(limits),
+      memory_(&memory),
+      file_(std::move(file)) {}
 
 Expected<Upload> Upload::begin(std::shared_ptr<Session> session, const UploadSettings& settings, const ServiceOptions& options,
                                MemoryBudget& memory) {

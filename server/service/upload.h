@@ -41,6 +41,7 @@ private:
            TempFile file);
 
     std::shared_ptr<Session> session_;
+    std::shared_ptr<void> held_;
     UploadSettings settings_;
     Limits limits_;
     MemoryBudget* memory_;

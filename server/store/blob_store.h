@@ -45,6 +45,12 @@ public:
     /// \return CORRUPT for bytes that are not there, or no longer those that were kept; UNAVAILABLE. O(bytes).
     [[nodiscard]] virtual Expected<std::shared_ptr<const Blob>> get(const std::string& key) const = 0;
 
+    /// The name that `put` would give. O(bytes).
+    [[nodiscard]] virtual std::string key_of(std::span<const Bytes> parts) const = 0;
+
+    /// Takes a blob out of the store without deleting it. \return UNAVAILABLE.
+    [[nodiscard]] virtual Status put_aside(const std::string& key) = 0;
+
     /// One that is not there is removed. \return UNAVAILABLE.
     [[nodiscard]] virtual Status remove(const std::string& key) = 0;
 

@@ -20,20 +20,21 @@ namespace fs = std::filesystem;
 constexpr const char* kIndex = "sessions.db";
 constexpr const char* kBlobs = "blobs";
 
+/// For its owner alone, where it is made; one that is there is somebody's decision.
 Status make_directories(const fs::path& directory) {
     std::error_code failed;
-    fs::create_directories(directory, failed);
-    if (!failed) fs::permissions(directory, fs::perms::owner_all, failed);
+    const bool made = fs::create_directories(directory, failed);
+    if (made && !failed) fs::permissions(directory, fs::perms::owner_all, failed);
     if (!failed) fs::create_directories(directory / "uploads", failed);
     if (failed) return service::disk_error("cannot make " + directory.string(), failed.value());
     return Done{};
 }
 
-/// The descriptor that holds the lock; the system lets go of it with the process, however that ends.
-Expected<int> lock(const fs::path& directory, bool writable) {
-    const int access = writable ? O_RDWR | O_CREAT : O_RDONLY;
-    const int descriptor = ::open((directory / "lock").c_str(), access | O_CLOEXEC, 0600);
-    if (descriptor < 0) return service::disk_error("cannot open " + (directory / "lock").string());
+/// The descriptor that holds the lock, which is the directory's own, so that no file is to be kept for it. The system lets go of
+/// it with the process, however that ends.
+Expected<int> lock(const fs::path& directory) {
+    const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return service::disk_error("cannot open " + directory.string());
     if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
     const int number = errno;
     close(descriptor);
@@ -66,7 +67,7 @@ Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, 
         report(service::disk_error("the data directory " + directory.string() + " is served, and nothing new is kept in it")
                    .message);
     if (Status made = writable ? make_directories(directory) : Status(Done{}); !made) return made.error();
-    const Expected<int> descriptor = lock(directory, writable);
+    const Expected<int> descriptor = lock(directory);
     if (!descriptor) return descriptor.error();
     DataDir opened(directory, *descriptor, writable);
     if (Status ready = opened.open_archive(quota, report); !ready) return ready.error();
@@ -84,7 +85,8 @@ Status DataDir::open_archive(std::uint64_t quota, const Report& report) {
     if (!index) return index.error();
     Expected<std::unique_ptr<FileBlobStore>> blobs = FileBlobStore::open(directory_ / kBlobs, quota, writable_);
     if (!blobs) return blobs.error();
-    archive_ = std::make_unique<StoredSessions>(*std::move(blobs), *std::move(index), quota, report);
+    archive_ = std::make_unique<StoredSessions>(*std::move(blobs), *std::move(index), DiskReserve(directory_ / "reserve"), quota,
+                                                report);
     return Done{};
 }
 

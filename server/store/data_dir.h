@@ -11,9 +11,9 @@ namespace vsplit::store {
 
 /// Where a server keeps its sessions, and whatever else it writes:
 ///
-///     lock            held by the server that runs
 ///     sessions.db     the index
-///     blobs/          the blobs
+///     blobs/          the blobs; blobs/aside/ those that the index does not know
+///     reserve         room that a full disk leaves for deleting sessions
 ///     uploads/        mesh files on their way
 ///     damaged-1/ ...  an index that could not be read and its blobs, put there untouched
 class DataDir {

@@ -47,8 +47,6 @@ private:
     std::size_t size_;
 };
 
-std::string key_of(std::span<const Bytes> parts) { return guard::hex_digits(guard::digest_of(parts)); }
-
 std::uint64_t size_of(std::span<const Bytes> parts) {
     std::uint64_t size = 0;
     for (const Bytes part : parts) size += part.size();
@@ -69,6 +67,15 @@ bool write_all(int descriptor, Bytes bytes) {
 bool sync_directory(const fs::path& directory) {
     const Descriptor opened(directory, O_RDONLY | O_DIRECTORY);
     return opened.open() && fsync(opened.number()) == 0;
+}
+
+// What was being written when a server ended: its names are numbers.
+void remove_incoming(const fs::path& directory) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(directory, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.find_first_not_of("0123456789") == std::string::npos) fs::remove(entry.path(), ignored);
+    }
 }
 
 bool is_key(const std::string& name) {
@@ -93,8 +100,8 @@ Expected<std::shared_ptr<const Blob>> map_file(const fs::path& place) {
 Expected<std::unique_ptr<FileBlobStore>> FileBlobStore::open(fs::path directory, std::uint64_t quota, bool writable) {
     std::unique_ptr<FileBlobStore> store(new FileBlobStore(std::move(directory), quota));
     std::error_code failed;
-    if (writable) fs::remove_all(store->incoming_, failed);
-    if (writable && !failed) fs::create_directories(store->incoming_, failed);
+    if (writable) remove_incoming(store->incoming_);
+    if (writable) fs::create_directories(store->incoming_, failed);
     if (failed) return service::disk_error("cannot make " + store->incoming_.string(), failed.value());
     const Expected<std::vector<BlobEntry>> all = store->list();
     if (!all) return all.error();
@@ -126,23 +133,23 @@ void FileBlobStore::give_back(std::uint64_t bytes) {
     bytes_ -= bytes;
 }
 
+std::string FileBlobStore::key_of(std::span<const Bytes> parts) const { return guard::hex_digits(guard::digest_of(parts)); }
+
 Expected<BlobEntry> FileBlobStore::put(std::span<const Bytes> parts) {
     BlobEntry blob{key_of(parts), size_of(parts)};
-    const fs::path place = place_of(blob.key);
-    struct stat about {};
-    if (stat(place.c_str(), &about) == 0) {
-        if (static_cast<std::uint64_t>(about.st_size) == blob.bytes) return blob;
+    if (fs::exists(place_of(blob.key))) {
+        if (get(blob.key)) return blob;
         if (Status removed = remove(blob.key); !removed) return removed.error();  // a damaged one
     }
     if (Status room = take_room(blob.bytes); !room) return room.error();
-    if (Status written = write(place, parts); !written) {
-        give_back(blob.bytes);
-        return written.error();
-    }
+    const Expected<bool> written = write(place_of(blob.key), parts);
+    if (!written || !*written) give_back(blob.bytes);
+    if (!written) return written.error();
     return blob;
 }
 
-Status FileBlobStore::write(const fs::path& place, std::span<const Bytes> parts) {
+/// False where another caller was quicker with the same bytes.
+Expected<bool> FileBlobStore::write(const fs::path& place, std::span<const Bytes> parts) {
     const fs::path incoming = incoming_ / std::to_string(++written_);
     const auto fail = [&incoming] {
         const int number = errno;
@@ -163,9 +170,11 @@ Status FileBlobStore::write(const fs::path& place, std::span<const Bytes> parts)
     } else if (errno != EEXIST) {
         return fail();
     }
-    if (rename(incoming.c_str(), place.c_str()) != 0) return fail();
-    if (!sync_directory(directory)) return fail();
-    return Done{};
+    const bool first = link(incoming.c_str(), place.c_str()) == 0;
+    if (!first && errno != EEXIST) return fail();
+    unlink(incoming.c_str());
+    if (!sync_directory(directory)) return service::disk_error("cannot keep a mesh in the data directory");
+    return first;
 }
 
 Expected<std::shared_ptr<const Blob>> FileBlobStore::get(const std::string& key) const {
@@ -174,6 +183,18 @@ Expected<std::shared_ptr<const Blob>> FileBlobStore::get(const std::string& key)
     const Bytes bytes = (*blob)->bytes();
     if (key_of({&bytes, 1}) == key) return blob;
     return Error{Cause::kCorrupt, "the data directory: " + key + " does not hold the bytes that were kept under this name", ""};
+}
+
+Status FileBlobStore::put_aside(const std::string& key) {
+    const fs::path aside = directory_ / "aside";
+    struct stat about {};
+    std::error_code failed;
+    fs::create_directory(aside, failed);
+    if (failed || stat(place_of(key).c_str(), &about) != 0 ||
+        rename(place_of(key).c_str(), (aside / (key + ".blob")).c_str()) != 0)
+        return service::disk_error("cannot put a stored mesh aside");
+    give_back(static_cast<std::uint64_t>(about.st_size));
+    return Done{};
 }
 
 Status FileBlobStore::remove(const std::string& key) {
@@ -188,7 +209,8 @@ Status FileBlobStore::remove(const std::string& key) {
 Expected<std::vector<BlobEntry>> FileBlobStore::list() const {
     std::vector<BlobEntry> blobs;
     std::error_code failed;
-    for (fs::recursive_directory_iterator at(directory_, failed), end; !failed && at != end; at.increment(failed)) {
+    const auto options = fs::directory_options::skip_permission_denied;
+    for (fs::recursive_directory_iterator at(directory_, options, failed), end; !failed && at != end; at.increment(failed)) {
         const std::string name = at->path().filename().string();
         std::error_code unknown;
         if (is_key(name) && at->is_regular_file(unknown)) blobs.push_back({name, at->file_size(unknown)});

@@ -9,8 +9,8 @@
 
 namespace vsplit::store {
 
-/// Blobs as files, directory/ab/abcdef...: written beside their place, synchronised and renamed into it, mapped to be read. The
-/// directory has nobody else's files.
+/// Blobs as files, directory/ab/abcdef...: written beside their place, synchronised and linked into it, mapped to be read. Those
+/// put aside are in directory/aside.
 class FileBlobStore final : public BlobStore {
 public:
     /// Makes the directory if need be, and removes what was being written when a server ended; one that is not `writable` is left
@@ -21,6 +21,8 @@ public:
 
     [[nodiscard]] Expected<BlobEntry> put(std::span<const Bytes> parts) override;
     [[nodiscard]] Expected<std::shared_ptr<const Blob>> get(const std::string& key) const override;
+    [[nodiscard]] std::string key_of(std::span<const Bytes> parts) const override;
+    [[nodiscard]] Status put_aside(const std::string& key) override;
     [[nodiscard]] Status remove(const std::string& key) override;
     [[nodiscard]] Expected<std::vector<BlobEntry>> list() const override;
     [[nodiscard]] std::uint64_t bytes() const override;
@@ -32,7 +34,7 @@ private:
     [[nodiscard]] std::filesystem::path place_of(const std::string& key) const;
     [[nodiscard]] Status take_room(std::uint64_t bytes);
     void give_back(std::uint64_t bytes);
-    [[nodiscard]] Status write(const std::filesystem::path& place, std::span<const Bytes> parts);
+    [[nodiscard]] Expected<bool> write(const std::filesystem::path& place, std::span<const Bytes> parts);
 
     const std::filesystem::path directory_;
     const std::filesystem::path incoming_;

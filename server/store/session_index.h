@@ -25,12 +25,15 @@ struct SessionRow {
     std::int64_t expires = 0;
     std::uint64_t made = 0;
     StoredItem source;
+    bool set_aside = false;  ///< it was damaged when it was last looked at
+    bool sound = true;       ///< whether the row is as it was written
 };
 
 struct RepresentationRow {
     std::uint64_t session = 0;
     std::uint64_t number = 0;  ///< within the session, from 1
     StoredItem item;
+    bool sound = true;  ///< as in SessionRow
 };
 
 struct JobRow {
@@ -39,10 +42,10 @@ struct JobRow {
     std::string info;
 };
 
-/// Everything that is not set aside, in order of numbers.
+/// Everything, in order of numbers.
 struct IndexContents {
     std::int64_t now = 0;
-    std::uint64_t last_session = 0;  ///< the largest number, of those set aside too
+    std::uint64_t last_session = 0;  ///< the largest number there ever was
     std::vector<SessionRow> sessions;
     std::vector<RepresentationRow> representations;
     std::vector<JobRow> jobs;
@@ -77,17 +80,21 @@ public:
     [[nodiscard]] virtual Expected<std::uint64_t> add_job(std::uint64_t session, const std::string& info) = 0;
     [[nodiscard]] virtual Status remove_jobs(const std::vector<std::uint64_t>& jobs) = 0;
 
-    /// `load` passes the session over from now on; what is its stays.
+    /// Remembers that the session is damaged, and why, or, where `why` is empty, that it no longer is.
     [[nodiscard]] virtual Status set_aside(std::uint64_t session, const std::string& why) = 0;
 
-    /// How many are set aside.
-    [[nodiscard]] virtual Expected<std::uint32_t> count_aside() = 0;
+    /// A blob that is about to be put is loose until a session has it.
+    [[nodiscard]] virtual Status add_loose(const std::string& blob) = 0;
 
-    /// Blobs of these sessions, each once.
-    [[nodiscard]] virtual Expected<std::vector<std::string>> blobs_of(const std::vector<std::uint64_t>& sessions) = 0;
+    /// Blobs that may go: that were put and no session had yet, or lost one that had them; and no session has them, of those set
+    /// aside neither.
+    [[nodiscard]] virtual Expected<std::vector<std::string>> loose() = 0;
 
-    /// Those of `blobs` that no session has, of those set aside neither.
-    [[nodiscard]] virtual Expected<std::vector<std::string>> unused(const std::vector<std::string>& blobs) = 0;
+    /// They are loose no more: they are gone, or a session has them.
+    [[nodiscard]] virtual Status remove_loose(const std::vector<std::string>& blobs) = 0;
+
+    /// Those of `blobs` that neither a session has nor is loose: the index knows nothing of them.
+    [[nodiscard]] virtual Expected<std::vector<std::string>> unknown(const std::vector<std::string>& blobs) = 0;
 };
 
 }  // namespace vsplit::store

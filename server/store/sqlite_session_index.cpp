@@ -1,8 +1,11 @@
 #include "store/sqlite_session_index.h"
 
-#include <set>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <utility>
+
+#include "guard/digest.h"
 
 namespace vsplit::store {
 namespace {
@@ -10,26 +13,54 @@ namespace {
 // Of the schema, in the database's user_version. 0 is a new database.
 constexpr std::int64_t kVersion = 1;
 
+// Triggers, not foreign keys, take away what is a session's: they work for whoever deletes a row, by whatever program.
 constexpr const char* kSchema = R"(
 CREATE TABLE clock (now INTEGER NOT NULL) STRICT;
 INSERT INTO clock VALUES (0);
 CREATE TABLE sessions (
-    number INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE, owner TEXT NOT NULL, created INTEGER NOT NULL,
+    number INTEGER PRIMARY KEY AUTOINCREMENT, id TEXT NOT NULL UNIQUE, owner TEXT NOT NULL, created INTEGER NOT NULL,
     expires INTEGER NOT NULL, made INTEGER NOT NULL, blob TEXT NOT NULL, info BLOB NOT NULL,
-    damage TEXT  -- why it is set aside
+    digest TEXT NOT NULL,  -- of number, id, owner, created, blob and info
+    damage TEXT            -- why it is set aside
 ) STRICT;
 CREATE INDEX sessions_by_blob ON sessions (blob);
 CREATE TABLE representations (
-    session INTEGER NOT NULL REFERENCES sessions ON DELETE CASCADE, number INTEGER NOT NULL, blob TEXT NOT NULL,
-    info BLOB NOT NULL, UNIQUE (session, number)
+    session INTEGER NOT NULL, number INTEGER NOT NULL, blob TEXT NOT NULL, info BLOB NOT NULL, digest TEXT NOT NULL,
+    UNIQUE (session, number)
 ) STRICT;
 CREATE INDEX representations_by_blob ON representations (blob);
-CREATE TABLE jobs (
-    number INTEGER PRIMARY KEY AUTOINCREMENT, session INTEGER NOT NULL REFERENCES sessions ON DELETE CASCADE, info BLOB NOT NULL
-) STRICT;
+CREATE TABLE jobs (number INTEGER PRIMARY KEY AUTOINCREMENT, session INTEGER NOT NULL, info BLOB NOT NULL) STRICT;
 CREATE INDEX jobs_by_session ON jobs (session);
+CREATE TABLE loose (blob TEXT PRIMARY KEY) STRICT;  -- blobs that may have no session
+CREATE TRIGGER session_goes AFTER DELETE ON sessions BEGIN
+    DELETE FROM representations WHERE session = OLD.number;
+    DELETE FROM jobs WHERE session = OLD.number;
+    INSERT OR IGNORE INTO loose SELECT OLD.blob WHERE OLD.blob <> '';
+END;
+CREATE TRIGGER source_goes AFTER UPDATE OF blob ON sessions WHEN OLD.blob <> '' BEGIN
+    INSERT OR IGNORE INTO loose VALUES (OLD.blob);
+END;
+CREATE TRIGGER representation_goes AFTER DELETE ON representations BEGIN
+    INSERT OR IGNORE INTO loose VALUES (OLD.blob);
+END;
 PRAGMA user_version = 1;
 )";
+
+// Of a row, so that bits that change in the file are seen. Lengths keep fields apart.
+std::string digest_of(std::initializer_list<std::string_view> fields) {
+    std::string all;
+    for (const std::string_view field : fields) all += std::to_string(field.size()) + ':' + std::string(field);
+    return guard::hex_digits(guard::digest_of(all));
+}
+
+std::string digest_of(const SessionRow& row) {
+    return digest_of(
+        {std::to_string(row.number), row.id, row.owner, std::to_string(row.created), row.source.blob, row.source.info});
+}
+
+std::string digest_of(const RepresentationRow& row) {
+    return digest_of({std::to_string(row.session), std::to_string(row.number), row.item.blob, row.item.info});
+}
 
 Error no_session() { return {Cause::kNotFound, "the session was deleted in the meantime", "session"}; }
 
@@ -42,7 +73,7 @@ Expected<std::int64_t> one_number(Database& database, const char* sql) {
 
 // "ok" where the database is sound.
 Status check(Database& database) {
-    Statement statement = database.prepare("PRAGMA quick_check(1)");
+    Statement statement = database.prepare("PRAGMA integrity_check(1)");
     const Expected<bool> row = statement.step();
     if (!row) return row.error();
     const std::string told = *row ? statement.bytes(0) : "nothing";
@@ -61,7 +92,8 @@ Expected<std::unique_ptr<SqliteSessionIndex>> SqliteSessionIndex::open(const std
 }
 
 Status SqliteSessionIndex::prepare_schema(bool writable) {
-    for (const char* setting : {"PRAGMA synchronous = FULL", "PRAGMA foreign_keys = ON", "PRAGMA journal_mode = WAL"}) {
+    for (const char* setting : {"PRAGMA synchronous = FULL", "PRAGMA journal_mode = WAL", "PRAGMA wal_autocheckpoint = 100",
+                                "PRAGMA journal_size_limit = 1000000"}) {
         if (!writable) break;
         if (Status set = database_.run(setting); !set) return set;
     }
@@ -75,6 +107,9 @@ Status SqliteSessionIndex::prepare_schema(bool writable) {
                          "; this vsplitd knows versions up to " + std::to_string(kVersion) + ", and a later one is needed",
                      "data_dir"};
     }
+    const Expected<std::int64_t> tables = one_number(database_, "SELECT count(*) FROM sqlite_schema");
+    if (!tables) return tables.error();
+    if (*tables != 0) return Error{Cause::kCorrupt, "the data directory's index: it has tables and no version", ""};
     Transaction transaction(database_);
     if (Status begun = transaction.begin(); !begun) return begun;
     if (Status made = database_.run(kSchema); !made) return made;
@@ -87,7 +122,7 @@ Expected<IndexContents> SqliteSessionIndex::load() {
     const Expected<std::int64_t> now = one_number(database_, "SELECT now FROM clock");
     if (!now) return now.error();
     contents.now = *now;
-    const Expected<std::int64_t> last = one_number(database_, "SELECT max(number) FROM sessions");
+    const Expected<std::int64_t> last = one_number(database_, "SELECT seq FROM sqlite_sequence WHERE name = 'sessions'");
     if (!last) return last.error();
     contents.last_session = static_cast<std::uint64_t>(*last);
     if (Status loaded = load_sessions(contents); !loaded) return loaded.error();
@@ -98,32 +133,38 @@ Expected<IndexContents> SqliteSessionIndex::load() {
 
 Status SqliteSessionIndex::load_sessions(IndexContents& contents) {
     Statement rows = database_.prepare(
-        "SELECT number, id, owner, created, expires, made, blob, info FROM sessions WHERE damage IS NULL ORDER BY number");
+        "SELECT number, id, owner, created, expires, made, blob, info, digest, damage IS NOT NULL FROM sessions ORDER BY number");
     for (;;) {
         const Expected<bool> row = rows.step();
         if (!row) return row.error();
         if (!*row) return Done{};
-        contents.sessions.push_back({static_cast<std::uint64_t>(rows.number(0)),
-                                     rows.bytes(1),
-                                     rows.bytes(2),
-                                     rows.number(3),
-                                     rows.number(4),
-                                     static_cast<std::uint64_t>(rows.number(5)),
-                                     {rows.bytes(6), rows.bytes(7)}});
+        SessionRow session;
+        session.number = static_cast<std::uint64_t>(rows.number(0));
+        session.id = rows.bytes(1);
+        session.owner = rows.bytes(2);
+        session.created = rows.number(3);
+        session.expires = rows.number(4);
+        session.made = static_cast<std::uint64_t>(rows.number(5));
+        session.source = {rows.bytes(6), rows.bytes(7)};
+        session.sound = digest_of(session) == rows.bytes(8);
+        session.set_aside = rows.number(9) != 0;
+        contents.sessions.push_back(std::move(session));
     }
 }
 
 Status SqliteSessionIndex::load_representations(IndexContents& contents) {
-    Statement rows = database_.prepare(
-        "SELECT r.session, r.number, r.blob, r.info FROM representations r JOIN sessions s ON s.number = r.session "
-        "WHERE s.damage IS NULL ORDER BY r.session, r.number");
+    Statement rows =
+        database_.prepare("SELECT session, number, blob, info, digest FROM representations ORDER BY session, number");
     for (;;) {
         const Expected<bool> row = rows.step();
         if (!row) return row.error();
         if (!*row) return Done{};
-        contents.representations.push_back({static_cast<std::uint64_t>(rows.number(0)),
-                                            static_cast<std::uint64_t>(rows.number(1)),
-                                            {rows.bytes(2), rows.bytes(3)}});
+        RepresentationRow made;
+        made.session = static_cast<std::uint64_t>(rows.number(0));
+        made.number = static_cast<std::uint64_t>(rows.number(1));
+        made.item = {rows.bytes(2), rows.bytes(3)};
+        made.sound = digest_of(made) == rows.bytes(4);
+        contents.representations.push_back(std::move(made));
     }
 }
 
@@ -139,8 +180,9 @@ Status SqliteSessionIndex::load_jobs(IndexContents& contents) {
 }
 
 Status SqliteSessionIndex::add_session(const SessionRow& session) {
+    const std::string digest = digest_of(session);
     const std::lock_guard lock(mutex_);
-    return database_.prepare("INSERT INTO sessions VALUES (?, ?, ?, ?, ?, ?, ?, ?, NULL)")
+    return database_.prepare("INSERT INTO sessions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, NULL)")
         .bind(session.number)
         .bind_text(session.id)
         .bind_text(session.owner)
@@ -149,31 +191,51 @@ Status SqliteSessionIndex::add_session(const SessionRow& session) {
         .bind(session.made)
         .bind_text(session.source.blob)
         .bind_blob(session.source.info)
+        .bind_text(digest)
         .run();
+}
+
+/// What the digest is of, but for the source. \pre lock held.
+Expected<SessionRow> SqliteSessionIndex::find_session(std::uint64_t number) {
+    Statement row = database_.prepare("SELECT id, owner, created FROM sessions WHERE number = ?");
+    const Expected<bool> found = row.bind(number).step();
+    if (!found) return found.error();
+    if (!*found) return no_session();
+    SessionRow session;
+    session.number = number;
+    session.id = row.bytes(0);
+    session.owner = row.bytes(1);
+    session.created = row.number(2);
+    return session;
 }
 
 Status SqliteSessionIndex::set_source(std::uint64_t session, const StoredItem& source) {
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
     if (Status begun = transaction.begin(); !begun) return begun;
-    Statement update = database_.prepare("UPDATE sessions SET blob = ?, info = ? WHERE number = ?");
-    if (Status done = update.bind_text(source.blob).bind_blob(source.info).bind(session).run(); !done) return done;
-    if (database_.changes() == 0) return no_session();
+    Expected<SessionRow> row = find_session(session);
+    if (!row) return row.error();
+    row->source = source;
+    const std::string digest = digest_of(*row);
+    Statement update = database_.prepare("UPDATE sessions SET blob = ?, info = ?, digest = ? WHERE number = ?");
+    update.bind_text(source.blob).bind_blob(source.info).bind_text(digest).bind(session);
+    if (Status done = update.run(); !done) return done;
     if (Status done = database_.prepare("DELETE FROM representations WHERE session = ?").bind(session).run(); !done) return done;
     if (Status done = database_.prepare("DELETE FROM jobs WHERE session = ?").bind(session).run(); !done) return done;
     return transaction.commit();
 }
 
 Status SqliteSessionIndex::add_representation(const RepresentationRow& representation, std::uint64_t made) {
+    const std::string digest = digest_of(representation);
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
     if (Status begun = transaction.begin(); !begun) return begun;
     Statement update = database_.prepare("UPDATE sessions SET made = ? WHERE number = ?");
     if (Status done = update.bind(made).bind(representation.session).run(); !done) return done;
     if (database_.changes() == 0) return no_session();
-    Statement insert = database_.prepare("INSERT INTO representations VALUES (?, ?, ?, ?)");
+    Statement insert = database_.prepare("INSERT INTO representations VALUES (?, ?, ?, ?, ?)");
     insert.bind(representation.session).bind(representation.number);
-    insert.bind_text(representation.item.blob).bind_blob(representation.item.info);
+    insert.bind_text(representation.item.blob).bind_blob(representation.item.info).bind_text(digest);
     if (Status done = insert.run(); !done) return done;
     return transaction.commit();
 }
@@ -221,45 +283,51 @@ Status SqliteSessionIndex::remove_jobs(const std::vector<std::uint64_t>& jobs) {
 
 Status SqliteSessionIndex::set_aside(std::uint64_t session, const std::string& why) {
     const std::lock_guard lock(mutex_);
-    return database_.prepare("UPDATE sessions SET damage = ? WHERE number = ?").bind_text(why).bind(session).run();
+    return database_.prepare("UPDATE sessions SET damage = nullif(?, '') WHERE number = ?").bind_text(why).bind(session).run();
 }
 
-Expected<std::uint32_t> SqliteSessionIndex::count_aside() {
+Status SqliteSessionIndex::add_loose(const std::string& blob) {
     const std::lock_guard lock(mutex_);
-    const Expected<std::int64_t> count = one_number(database_, "SELECT count(*) FROM sessions WHERE damage IS NOT NULL");
-    if (!count) return count.error();
-    return static_cast<std::uint32_t>(*count);
+    return database_.prepare("INSERT OR IGNORE INTO loose VALUES (?)").bind_text(blob).run();
 }
 
-Expected<std::vector<std::string>> SqliteSessionIndex::blobs_of(const std::vector<std::uint64_t>& sessions) {
+Expected<std::vector<std::string>> SqliteSessionIndex::loose() {
     const std::lock_guard lock(mutex_);
-    Statement statement = database_.prepare(
-        "SELECT blob FROM sessions WHERE number = ?1 AND blob <> '' UNION SELECT blob FROM representations WHERE session = ?1");
-    std::set<std::string> blobs;
-    for (const std::uint64_t session : sessions) {
-        statement.bind(session);
-        for (Expected<bool> row = statement.step();; row = statement.step()) {
-            if (!row) return row.error();
-            if (!*row) break;
-            blobs.insert(statement.bytes(0));
-        }
-        statement.reset();
+    Statement rows = database_.prepare(
+        "SELECT blob FROM loose WHERE blob NOT IN (SELECT blob FROM sessions) AND blob NOT IN (SELECT blob FROM "
+        "representations)");
+    std::vector<std::string> blobs;
+    for (;;) {
+        const Expected<bool> row = rows.step();
+        if (!row) return row.error();
+        if (!*row) return blobs;
+        blobs.push_back(rows.bytes(0));
     }
-    return std::vector<std::string>(blobs.begin(), blobs.end());
 }
 
-Expected<std::vector<std::string>> SqliteSessionIndex::unused(const std::vector<std::string>& blobs) {
+Status SqliteSessionIndex::remove_loose(const std::vector<std::string>& blobs) {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(database_);
+    if (Status begun = transaction.begin(); !begun) return begun;
+    Statement statement = database_.prepare("DELETE FROM loose WHERE blob = ?");
+    for (const std::string& blob : blobs) {
+        if (Status done = statement.bind_text(blob).run(); !done) return done;
+    }
+    return transaction.commit();
+}
+
+Expected<std::vector<std::string>> SqliteSessionIndex::unknown(const std::vector<std::string>& blobs) {
     const std::lock_guard lock(mutex_);
     Statement statement = database_.prepare(
-        "SELECT EXISTS (SELECT 1 FROM sessions WHERE blob = ?1) OR EXISTS (SELECT 1 FROM representations WHERE blob = ?1)");
-    std::vector<std::string> unused;
+        "SELECT ?1 IN (SELECT blob FROM sessions) OR ?1 IN (SELECT blob FROM representations) OR ?1 IN (SELECT blob FROM loose)");
+    std::vector<std::string> unknown;
     for (const std::string& blob : blobs) {
         const Expected<bool> row = statement.bind_text(blob).step();
         if (!row) return row.error();
-        if (statement.number(0) == 0) unused.push_back(blob);
+        if (statement.number(0) == 0) unknown.push_back(blob);
         statement.reset();
     }
-    return unused;
+    return unknown;
 }
 
 }  // namespace vsplit::store

@@ -26,9 +26,10 @@ public:
     [[nodiscard]] Expected<std::uint64_t> add_job(std::uint64_t session, const std::string& info) override;
     [[nodiscard]] Status remove_jobs(const std::vector<std::uint64_t>& jobs) override;
     [[nodiscard]] Status set_aside(std::uint64_t session, const std::string& why) override;
-    [[nodiscard]] Expected<std::uint32_t> count_aside() override;
-    [[nodiscard]] Expected<std::vector<std::string>> blobs_of(const std::vector<std::uint64_t>& sessions) override;
-    [[nodiscard]] Expected<std::vector<std::string>> unused(const std::vector<std::string>& blobs) override;
+    [[nodiscard]] Status add_loose(const std::string& blob) override;
+    [[nodiscard]] Expected<std::vector<std::string>> loose() override;
+    [[nodiscard]] Status remove_loose(const std::vector<std::string>& blobs) override;
+    [[nodiscard]] Expected<std::vector<std::string>> unknown(const std::vector<std::string>& blobs) override;
 
 private:
     explicit SqliteSessionIndex(Database database) : database_(std::move(database)) {}
@@ -37,6 +38,7 @@ private:
     [[nodiscard]] Status load_sessions(IndexContents& contents);
     [[nodiscard]] Status load_representations(IndexContents& contents);
     [[nodiscard]] Status load_jobs(IndexContents& contents);
+    [[nodiscard]] Expected<SessionRow> find_session(std::uint64_t number);
     [[nodiscard]] Status for_each(const char* sql, const std::vector<std::uint64_t>& numbers);
 
     std::mutex mutex_;

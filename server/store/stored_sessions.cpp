@@ -70,22 +70,19 @@ std::vector<std::string> keys_of(const std::vector<BlobEntry>& blobs) {
 
 }  // namespace
 
-StoredSessions::StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, std::uint64_t quota,
-                               Report report)
+StoredSessions::StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, DiskReserve reserve,
+                               std::uint64_t quota, Report report)
     : blobs_(std::move(blobs)),
       index_(std::move(index)),
+      reserve_(std::move(reserve)),
       quota_(quota),
       report_(std::make_shared<const Report>(std::move(report))) {}
 
 Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
     const Expected<IndexContents> contents = index_->load();
     if (!contents) return contents.error();
-    const Expected<Blobs> blobs = blobs_->list();
+    Expected<Blobs> blobs = blobs_->list();
     if (!blobs) return blobs.error();
-    const Expected<std::uint32_t> aside = index_->count_aside();
-    if (!aside) return aside.error();
-    aside_ = *aside;
-
     std::map<std::uint64_t, service::SessionRecord> records;
     std::map<std::uint64_t, Error> damage;
     for (const SessionRow& row : contents->sessions) {
@@ -105,19 +102,19 @@ Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
         Expected<service::MethodRequest> request = read_request(row.info);
         if (record != records.end() && request) record->second.unfinished.push_back({row.number, *std::move(request)});
     }
+    service::Restored restored{{}, contents->last_session, milliseconds(contents->now)};
     for (const SessionRow& row : contents->sessions) {
         const auto why = damage.find(row.number);
-        if (why == damage.end()) continue;
-        records.erase(row.number);
-        set_aside(row.number, row.id, why->second);
+        judge(row, why == damage.end() ? nullptr : &why->second);
+        if (why == damage.end()) restored.sessions.push_back(std::move(records.at(row.number)));
     }
-    collect(keys_of(*blobs));
-    service::Restored restored{{}, contents->last_session, milliseconds(contents->now)};
-    for (auto& [number, record] : records) restored.sessions.push_back(std::move(record));
+    put_unknown_aside(keys_of(*blobs));
+    collect();
     return restored;
 }
 
 Expected<service::SessionRecord> StoredSessions::recall(const SessionRow& row, const Blobs& blobs, MemoryBudget& budget) const {
+    if (!row.sound) return Error{Cause::kCorrupt, "its row of the index is not as it was written", ""};
     service::SessionRecord record;
     record.number = row.number;
     record.id = row.id;
@@ -137,6 +134,7 @@ Expected<service::SessionRecord> StoredSessions::recall(const SessionRow& row, c
 
 Expected<std::shared_ptr<const service::Representation>> StoredSessions::recall(const RepresentationRow& row, const Blobs& blobs,
                                                                                 MemoryBudget& budget) const {
+    if (!row.sound) return Error{Cause::kCorrupt, "the index's row of a representation is not as it was written", ""};
     Expected<ToldRepresentation> told = read_representation(row.item.info);
     if (!told) return told.error();
     if (Status there = require_blob(blobs, row.item.blob, told->blob_bytes); !there) return there.error();
@@ -146,18 +144,34 @@ Expected<std::shared_ptr<const service::Representation>> StoredSessions::recall(
                                                            Kept<Levels>::elsewhere(std::move(load), told->memory, budget));
 }
 
-/// Where the index cannot be told it is found again, and reported again, when the server next starts.
-void StoredSessions::set_aside(std::uint64_t session, const std::string& id, const Error& why) {
-    (*report_)("session " + id + " is damaged and set aside: " + why.message);
-    ++aside_;
-    static_cast<void>(index_->set_aside(session, why.message));
+/// Tells what is new of a session's damage. What the index cannot be told is told again when the server next starts.
+void StoredSessions::judge(const SessionRow& row, const Error* damage) {
+    if (damage != nullptr) ++aside_;
+    if (damage != nullptr && !row.set_aside) {
+        (*report_)("session " + row.id + " is damaged and set aside: " + damage->message);
+        static_cast<void>(index_->set_aside(row.number, damage->message));
+    }
+    if (damage == nullptr && row.set_aside) {
+        (*report_)("session " + row.id + " is sound again");
+        static_cast<void>(index_->set_aside(row.number, ""));
+    }
+}
+
+/// An index that lost something knows nothing of blobs that are still there. They may be all that is left of sessions.
+void StoredSessions::put_unknown_aside(const std::vector<std::string>& blobs) {
+    const Expected<std::vector<std::string>> unknown = index_->unknown(blobs);
+    if (!unknown || unknown->empty()) return;
+    std::size_t done = 0;
+    for (const std::string& key : *unknown) done += blobs_->put_aside(key) ? 1 : 0;
+    (*report_)(std::to_string(done) + " of " + std::to_string(blobs.size()) +
+               " stored meshes and representations are in no session of the index; they are put aside, not deleted");
 }
 
 Expected<StoredItem> StoredSessions::keep_source(const service::SourceMesh& source) {
     const Expected<std::shared_ptr<const TriangleMesh>> mesh = source.mesh->get();
     if (!mesh) return mesh.error();
     const MeshBlob encoded(**mesh);
-    const Expected<BlobEntry> blob = blobs_->put(encoded.parts());
+    const Expected<BlobEntry> blob = put(encoded.parts());
     if (!blob) return blob.error();
     return StoredItem{blob->key, write_source(source, **mesh, blob->bytes)};
 }
@@ -167,9 +181,14 @@ Expected<StoredItem> StoredSessions::keep_levels(const service::Representation& 
     if (!levels) return levels.error();
     const std::string file = encode_mrr({(*levels)->mrr(), representation.figures().faces, {}});
     const Bytes bytes = std::as_bytes(std::span(file));
-    const Expected<BlobEntry> blob = blobs_->put({&bytes, 1});
+    const Expected<BlobEntry> blob = put({&bytes, 1});
     if (!blob) return blob.error();
     return StoredItem{blob->key, write_representation(representation, blob->bytes)};
+}
+
+Expected<BlobEntry> StoredSessions::put(std::span<const Bytes> parts) {
+    if (Status noted = index_->add_loose(blobs_->key_of(parts)); !noted) return noted.error();
+    return blobs_->put(parts);
 }
 
 Status StoredSessions::add(const service::SessionRecord& session) {
@@ -187,18 +206,14 @@ Status StoredSessions::add(const service::SessionRecord& session) {
 }
 
 Status StoredSessions::set_source(std::uint64_t session, const service::SourceMesh& source) {
-    std::vector<std::string> before;
     {
         const std::shared_lock lock(collecting_);
-        Expected<std::vector<std::string>> blobs = index_->blobs_of({session});
-        if (!blobs) return blobs.error();
-        before = *std::move(blobs);
         const Expected<StoredItem> item = keep_source(source);
         if (!item) return item.error();
         if (Status set = index_->set_source(session, *item); !set) return set;
         can_be_loaded(source, item->blob);
     }
-    collect(before);
+    collect();
     return Done{};
 }
 
@@ -219,19 +234,26 @@ Status StoredSessions::add_representation(std::uint64_t session, const service::
 }
 
 Status StoredSessions::remove(const std::vector<std::uint64_t>& sessions) {
-    const Expected<std::vector<std::string>> blobs = index_->blobs_of(sessions);
-    if (!blobs) return blobs.error();
-    if (Status removed = index_->remove_sessions(sessions); !removed) return removed;
-    collect(*blobs);
-    return Done{};
+    Status removed = index_->remove_sessions(sessions);
+    if (!removed && removed.error().cause == Cause::kLimitExceeded) {
+        reserve_.give();
+        removed = index_->remove_sessions(sessions);
+    }
+    if (removed) collect();
+    reserve_.take();
+    return removed;
 }
 
-/// Removes those of `candidates` that nobody needs. What cannot be removed now is when the server next begins.
-void StoredSessions::collect(const std::vector<std::string>& candidates) {
+/// Removes what is loose. What cannot be removed now is tried again with the next that becomes loose, and when the server starts.
+void StoredSessions::collect() {
     const std::unique_lock lock(collecting_);
-    const Expected<std::vector<std::string>> unused = index_->unused(candidates);
-    if (!unused) return;
-    for (const std::string& key : *unused) static_cast<void>(blobs_->remove(key));
+    const Expected<std::vector<std::string>> loose = index_->loose();
+    if (!loose) return;
+    std::vector<std::string> gone;
+    for (const std::string& key : *loose) {
+        if (blobs_->remove(key)) gone.push_back(key);
+    }
+    static_cast<void>(index_->remove_loose(gone));
 }
 
 Status StoredSessions::note_time(milliseconds now, const std::vector<std::pair<std::uint64_t, milliseconds>>& expire) {

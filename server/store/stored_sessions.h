@@ -4,11 +4,13 @@
 #include <functional>
 #include <memory>
 #include <shared_mutex>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "service/session_archive.h"
 #include "store/blob_store.h"
+#include "store/disk_reserve.h"
 #include "store/session_index.h"
 
 namespace vsplit::store {
@@ -16,12 +18,14 @@ namespace vsplit::store {
 /// Hears of what an operator should know. Any thread; must not block.
 using Report = std::function<void(const std::string& message)>;
 
-/// Sessions in a blob store and an index. A blob is there before the index names it, and goes when the index no longer does; so
-/// the end of the process leaves at most blobs that nobody needs, which `restore` removes.
+/// Sessions in a blob store and an index. A blob is loose in the index before it is put, and again when it loses a session; only
+/// loose ones are ever removed. So the end of the process leaves at most blobs that are known to be nobody's, which `restore`
+/// removes.
 class StoredSessions final : public service::SessionArchive {
 public:
     /// `quota`: bytes of disk, for `use` alone.
-    StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, std::uint64_t quota, Report report);
+    StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, DiskReserve reserve,
+                   std::uint64_t quota, Report report);
 
     /// A session that is damaged is set aside and reported; the others are served.
     [[nodiscard]] Expected<service::Restored> restore(service::MemoryBudget& budget) override;
@@ -47,12 +51,15 @@ private:
     [[nodiscard]] Expected<std::shared_ptr<const service::Representation>> recall(const RepresentationRow& row,
                                                                                   const Blobs& blobs,
                                                                                   service::MemoryBudget& budget) const;
-    void set_aside(std::uint64_t session, const std::string& id, const Error& why);
+    [[nodiscard]] Expected<BlobEntry> put(std::span<const Bytes> parts);
+    void judge(const SessionRow& row, const Error* damage);
+    void put_unknown_aside(const std::vector<std::string>& blobs);
     void can_be_loaded(const service::SourceMesh& source, const std::string& blob) const;
-    void collect(const std::vector<std::string>& candidates);
+    void collect();
 
     const std::shared_ptr<BlobStore> blobs_;  // also of what loads
     const std::unique_ptr<SessionIndex> index_;
+    const DiskReserve reserve_;
     const std::uint64_t quota_;
     const std::shared_ptr<const Report> report_;
     std::atomic<std::uint32_t> aside_ = 0;

@@ -91,8 +91,22 @@ TEST_F(FileBlobStoreTest, ChangedAndShortenedBytesAreNotServed) {
     EXPECT_EQ(store->get(key).error().cause, Cause::kCorrupt);
     std::filesystem::resize_file(file_of(key), 0);
     EXPECT_EQ(store->get(key).error().cause, Cause::kCorrupt);
-    ASSERT_TRUE(put(*store, "as it was")) << "a file of the wrong size is written anew";
+    ASSERT_TRUE(put(*store, "as it was")) << "a damaged one is written anew";
     EXPECT_TRUE(store->get(key));
+    std::ofstream(file_of(key), std::ios::in | std::ios::out).write("AS", 2);
+    ASSERT_TRUE(put(*store, "as it was")) << "also where its size is right";
+    EXPECT_TRUE(store->get(key));
+}
+
+TEST_F(FileBlobStoreTest, WhatIsPutAsideIsThereAndNotServed) {
+    const auto store = open();
+    const auto key = put(*store, "perhaps all that is left").operator*().key;
+    ASSERT_TRUE(store->put_aside(key));
+    EXPECT_FALSE(store->get(key));
+    EXPECT_TRUE(store->list()->empty());
+    EXPECT_EQ(store->bytes(), 0U);
+    EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "blobs" / "aside" / (key + ".blob")));
+    EXPECT_TRUE(open()->list()->empty());
 }
 
 TEST_F(FileBlobStoreTest, HalfWrittenFilesAreNoBlobsAndGo) {
@@ -131,6 +145,7 @@ TEST_F(FileBlobStoreTest, ThreadsPutTheSameAndOthers) {
     }
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(store->list()->size(), 20U);
+    EXPECT_EQ(store->bytes(), 10U * 6 + 10U * 7) << "each is counted once";
 }
 
 TEST(MeshBlobTest, ReadsWhatItWrote) {

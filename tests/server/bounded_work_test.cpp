@@ -36,6 +36,17 @@ TEST(BoundedWorkTest, AMethodThatMemoryHasNoRoomForIsRefusedBeforeItTakesAny) {
     EXPECT_LE(server.service().memory().use().bytes, options.limits.memory_bytes);
 }
 
+TEST(BoundedWorkTest, WhatARequestHoldsCountsAsWell) {
+    TestServer server;
+    const TriangleMesh mesh = bumpy_sphere(2, 0.05, 7);
+    const std::string session = session_with(server.stub(), mesh);
+    v1::ImproveRequest large = small_improve(session);
+    for (std::uint32_t i = 0; i < 600'000; ++i) large.mutable_options()->add_marked_edges(mesh.faces[0][i % 2]);
+    const Received received = improve(server.stub(), large);
+    ASSERT_TRUE(received.status.ok()) << received.status.error_message();
+    EXPECT_GT(server.service().memory().use().bytes, 2'400'000U);
+}
+
 TEST(BoundedWorkTest, AMeshThatMemoryHasNoRoomForIsRefused) {
     service::ServiceOptions options = small_server();
     options.limits.memory_bytes = 1 << 20;

@@ -74,6 +74,25 @@ TEST_F(DataDirTest, ADamagedIndexIsPutAsideAsItIs) {
     EXPECT_TRUE(std::filesystem::exists(directory_ / "damaged-2" / "sessions.db"));
 }
 
+TEST_F(DataDirTest, ADirectoryThatIsThereKeepsItsPermissions) {
+    std::filesystem::create_directories(directory_);
+    std::filesystem::permissions(directory_, std::filesystem::perms(0755));
+    ASSERT_TRUE(open());
+    struct stat about {};
+    ASSERT_EQ(stat(directory_.c_str(), &about), 0);
+    EXPECT_EQ(about.st_mode & 0777U, 0755U);
+}
+
+TEST_F(DataDirTest, AnIndexThatLostItsVersionIsDamaged) {
+    ASSERT_TRUE(open());
+    {
+        auto database = Database::open(directory_ / "sessions.db");
+        ASSERT_TRUE(database && database->run("PRAGMA user_version = 0"));
+    }
+    ASSERT_TRUE(open());
+    EXPECT_THAT(told_, HasSubstr("put aside untouched"));
+}
+
 TEST_F(DataDirTest, ALaterVersionIsLeftAlone) {
     ASSERT_TRUE(open());
     {

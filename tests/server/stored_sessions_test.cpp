@@ -15,6 +15,8 @@
 
 #include "service/session_store.h"
 #include "store/data_dir.h"
+#include "store/sqlite.h"
+#include "store/sqlite_session_index.h"
 #include "tests/core/meshes.h"
 #include "tests/temp_directory.h"
 #include "vsplit/method/control.h"
@@ -284,16 +286,78 @@ TEST_F(StoredSessionsTest, BytesThatChangedAreReportedWhenTheyAreUsed) {
 }
 
 TEST_F(StoredSessionsTest, BlobsThatNobodyNeedsGoWithTheNextStart) {
+    const auto index = [this] { return *SqliteSessionIndex::open(scratch_.path() / "sessions.db"); };
     {
         ServerRun run(scratch_.path(), memory_);
         ASSERT_TRUE(run.store.create(run.source_of(test::cube())));
     }
-    const auto orphan = scratch_.path() / "blobs" / "00" / std::string(64, '0');
+    const std::string key(64, '0');
+    ASSERT_TRUE(index()->add_loose(key));
+    const auto orphan = scratch_.path() / "blobs" / "00" / key;
     std::filesystem::create_directories(orphan.parent_path());
     std::ofstream(orphan) << "put, and then the process ended";
     ServerRun run(scratch_.path(), memory_);
     EXPECT_FALSE(std::filesystem::exists(orphan));
     EXPECT_EQ(blobs().size(), 1U);
+    EXPECT_EQ(run.told, "");
+}
+
+// What an index has lost may be all that is left of sessions.
+TEST_F(StoredSessionsTest, BlobsThatTheIndexDoesNotKnowArePutAside) {
+    {
+        ServerRun run(scratch_.path(), memory_);
+        ASSERT_TRUE(run.store.create(run.source_of(test::cube())));
+        ASSERT_TRUE(run.store.create(run.source_of(test::icosphere(2))));
+    }
+    for (const char* name : {"sessions.db", "sessions.db-wal", "sessions.db-shm"})
+        std::filesystem::remove(scratch_.path() / name);
+    ServerRun run(scratch_.path(), memory_);
+    EXPECT_THAT(run.told, HasSubstr("2 of 2 stored meshes"));
+    EXPECT_EQ(run.store.count(), 0U);
+    EXPECT_EQ(blobs().size(), 2U) << "under blobs/aside";
+    EXPECT_EQ(run.archive->use().bytes, 0U);
+}
+
+TEST_F(StoredSessionsTest, ARowThatChangedSetsItsSessionAsideUntilItIsMended) {
+    std::string id;
+    {
+        ServerRun run(scratch_.path(), memory_);
+        id = (*run.store.create(run.source_of(test::cube()), "ann"))->id();
+    }
+    const auto change = [this](const char* sql) { ASSERT_TRUE((*Database::open(scratch_.path() / "sessions.db")).run(sql)); };
+    change("UPDATE sessions SET owner = 'bob'");
+    {
+        ServerRun run(scratch_.path(), memory_);
+        EXPECT_THAT(run.told, HasSubstr("not as it was written"));
+        EXPECT_FALSE(run.store.find(id, "bob"));
+        EXPECT_EQ(run.archive->use().set_aside, 1U);
+    }
+    change("UPDATE sessions SET owner = 'ann'");
+    ServerRun run(scratch_.path(), memory_);
+    EXPECT_THAT(run.told, HasSubstr("is sound again"));
+    EXPECT_TRUE(run.store.find(id, "ann"));
+    EXPECT_EQ(run.archive->use().set_aside, 0U);
+}
+
+// By whatever program: what is a session's goes with its row, and its number is not used again.
+TEST_F(StoredSessionsTest, ARowThatIsDeletedTakesAllWithIt) {
+    {
+        ServerRun run(scratch_.path(), memory_);
+        const auto session = *run.store.create(run.source_of(test::icosphere(2)), "ann");
+        ASSERT_TRUE(session->add_representation({}, improved(test::icosphere(2), {.faces = 100})));
+    }
+    ASSERT_TRUE((*Database::open(scratch_.path() / "sessions.db")).run("DELETE FROM sessions"));
+    std::string id;
+    {
+        ServerRun run(scratch_.path(), memory_);
+        EXPECT_TRUE(blobs().empty());
+        id = (*run.store.create(nullptr, "bob"))->id();
+    }
+    ServerRun run(scratch_.path(), memory_);
+    const auto session = run.store.find(id, "bob");
+    ASSERT_TRUE(session);
+    EXPECT_EQ((*session)->number(), 2U);
+    EXPECT_TRUE((*session)->snapshot().representations.empty());
 }
 
 TEST_F(StoredSessionsTest, WhatDoesNotFitTheQuotaLeavesNothing) {
