@@ -25,7 +25,7 @@ public:
         std::uint32_t nodes_on_chord = 0;
     };
 
-    /// \return NOT_FOUND, NOT_READY, INVALID_OPTION, UNSUPPORTED (order), UNAVAILABLE.
+    /// \return NOT_FOUND, NOT_READY, INVALID_OPTION (also unit), UNSUPPORTED (order), UNAVAILABLE.
     [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
                                                                        const service::Caller& caller,
                                                                        const v1::DownloadMeshRequest& request, const Wake& wake);

@@ -25,12 +25,13 @@ std::shared_ptr<const SourceMesh> make_source(TriangleMesh mesh, MeshReport repo
 Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byte> bytes, const MeshSettings& settings,
                                                         const Limits& limits, MemoryBudget& budget) {
     return guarded([&]() -> Expected<std::shared_ptr<const SourceMesh>> {
-        const Expected<MemoryBudget::Share> room = budget.reserve(memory_to_read(bytes.size()), "reading this mesh");
+        const Expected<MemoryBudget::Share> room = budget.reserve(memory_to_read(unpacked_size(bytes)), "reading this mesh");
         if (!room) return room.error();
-        Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces});
+        Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces, settings.unit});
         if (!read) return read.error();
         Expected<MeshReport> report = inspect_source(read->mesh, read->weld, settings.repair);
         if (!report) return report.error();
+        report->unit = read->unit;
         return make_source(std::move(read->mesh), *std::move(report), budget);
     });
 }

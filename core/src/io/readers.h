@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "vsplit/base/expected.h"
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
@@ -22,5 +24,8 @@ namespace vsplit {
 [[nodiscard]] Expected<TriangleMesh> read_bdf(std::span<const std::byte> bytes, std::uint32_t max_faces);
 [[nodiscard]] Expected<TriangleMesh> read_vtk(std::span<const std::byte> bytes, std::uint32_t max_faces);
 [[nodiscard]] Expected<TriangleMesh> read_vtu(std::span<const std::byte> bytes, std::uint32_t max_faces);
+/// `unit` becomes the file's.
+[[nodiscard]] Expected<TriangleMesh> read_3mf(std::span<const std::byte> bytes, std::uint32_t max_faces,
+                                              std::optional<LengthUnit>& unit);
 
 }  // namespace vsplit
