@@ -36,3 +36,22 @@ std::string_view @name@() {
   set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${arg_FILE})
   target_sources(${arg_TARGET} PRIVATE ${source})
 endfunction()
+
+# All files of a folder that the build makes, under names that are not known before:
+#   vsplit_embed_folder(TARGET vsplitd FOLDER ${out} MADE_BY target MARK ${out}/index.html HEADER ops/page_bytes.h FUNCTION vsplit::ops::f)
+# defines `std::span<const EmbeddedFile> FUNCTION()`, sorted by path, which HEADER declares with EmbeddedFile{path, bytes}. MARK is a file
+# of the folder that is new whenever another one is.
+function(vsplit_embed_folder)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "TARGET;FOLDER;MADE_BY;MARK;HEADER;FUNCTION" "")
+  string(REPLACE "::" "_" symbol ${arg_FUNCTION})
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/embedded/${symbol}.cpp)
+  set(script ${PROJECT_SOURCE_DIR}/cmake/embed_folder.cmake)
+  add_custom_command(
+    OUTPUT ${source}
+    COMMAND ${CMAKE_COMMAND} -D FOLDER=${arg_FOLDER} -D HEADER=${arg_HEADER} -D FUNCTION=${arg_FUNCTION} -D SYMBOL=${symbol}
+      -D SOURCE=${source} -P ${script}
+    DEPENDS ${arg_MADE_BY} ${arg_MARK} ${script}
+    COMMENT "Embedding ${arg_FOLDER}"
+    VERBATIM)
+  target_sources(${arg_TARGET} PRIVATE ${source})
+endfunction()

@@ -39,7 +39,8 @@ void set_options(const ControlOptions& options, Proto& proto) {
 
 /// What both messages say of a request.
 template <class Proto>
-void set_request(const std::string& source_representation, std::uint32_t source_faces, const MethodOptions& options, Proto& proto) {
+void set_request(const std::string& source_representation, std::uint32_t source_faces, const MethodOptions& options,
+                 Proto& proto) {
     proto.mutable_source()->set_representation(source_representation);
     proto.mutable_source()->set_faces(source_faces);
     std::visit([&](const auto& o) { set_options(o, proto); }, options);

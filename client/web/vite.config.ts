@@ -1,6 +1,6 @@
 import { defineConfig } from "vitest/config";
 
-// Names without hashes: CMake lists the files that go into vsplitd.
+// What is under assets/ has its hash in its name, so that a browser may keep it for good (server/ops/page.cpp).
 export default defineConfig({
   base: "./",
   build: {
@@ -8,9 +8,9 @@ export default defineConfig({
     modulePreload: false,
     emptyOutDir: true,
     chunkSizeWarningLimit: 1000,
-    rollupOptions: { output: { entryFileNames: "page.js", assetFileNames: "page[extname]", inlineDynamicImports: true } },
+    rollupOptions: { output: { entryFileNames: "assets/page-[hash].js", assetFileNames: "assets/page-[hash][extname]", inlineDynamicImports: true } },
   },
-  worker: { format: "es", rollupOptions: { output: { entryFileNames: "worker.js" } } },
+  worker: { format: "es", rollupOptions: { output: { entryFileNames: "assets/worker-[hash].js" } } },
   test: { include: ["test/*.test.ts"] },
   server: { proxy: { "/v1": "http://127.0.0.1:8080", "/openapi.json": "http://127.0.0.1:8080", "/samples": "http://127.0.0.1:8080" } },
 });

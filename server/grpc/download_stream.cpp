@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "guard/digest.h"
 #include "service/guarded.h"
 #include "vsplit/base/execution_context.h"
 #include "vsplit/io/second_order.h"
@@ -58,12 +59,15 @@ Expected<DownloadSource::File> write_file(const Wanted& wanted, const std::files
         mesh = std::move(converted);
     }
     if (*nodes) file.nodes_on_chord = (*nodes)->on_chord;
-    const Expected<std::string> text = *nodes ? write_second_order(*mesh, **nodes, wanted.format)
-                                              : Expected<std::string>(write_mesh(*mesh, wanted.format, to));
+    Expected<std::string> text = *nodes ? write_second_order(*mesh, **nodes, wanted.format)
+                                        : Expected<std::string>(write_mesh(*mesh, wanted.format, to));
     if (!text) return text.error();
-    Expected<service::FileMapping> mapped = map_file(*text, directory);
-    if (!mapped) return mapped.error();
-    file.mapping.emplace(*std::move(mapped));
+    file.digest = guard::hex_digits(guard::digest_of(*text));
+    if (Expected<service::FileMapping> mapped = map_file(*text, directory); mapped) {
+        file.mapping.emplace(*std::move(mapped));
+    } else {
+        file.text = *std::move(text);
+    }
     return file;
 }
 
@@ -140,7 +144,7 @@ Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(ser
 }
 
 DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& end) {
-    if (!file_) {
+    if (!file_.mapping) {
         std::optional<Expected<File>> prepared = prepared_->take();
         if (!prepared) return Step::kWait;
         if (!*prepared) {
@@ -148,7 +152,7 @@ DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& en
             return Step::kEnd;
         }
         file_ = std::move(**prepared);
-    } else if (sent_ == file_->mapping->bytes().size()) {
+    } else if (sent_ == file_->bytes().size()) {
         return Step::kEnd;
     }
     fill(chunk);
@@ -157,7 +161,7 @@ DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& en
 
 void DownloadSource::fill(v1::MeshChunk& chunk) {
     chunk.Clear();
-    const std::span<const std::byte> rest = file_->mapping->bytes().subspan(sent_);
+    const std::span<const std::byte> rest = file_.mapping->bytes().subspan(sent_);
     const std::span<const std::byte> part = rest.first(std::min(rest.size(), kChunkBytes));
     chunk.set_offset(sent_);
     chunk.set_data(part.data(), part.size());
@@ -167,6 +171,7 @@ void DownloadSource::fill(v1::MeshChunk& chunk) {
         chunk.set_content_type(content_type(format_));
         chunk.set_faces(file_->mesh.faces);
         chunk.set_nodes_on_chord(file_->nodes_on_chord);
+        chunk.set_digest(file_->digest);
     }
     sent_ += part.size();
 }

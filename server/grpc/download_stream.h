@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "grpc/mailbox.h"
@@ -15,6 +16,7 @@
 namespace vsplit::rpc {
 
 /// DownloadMesh: an errand writes the file, unnamed and on disk, so that a slow reader costs one chunk of memory and not a file.
+/// A full disk keeps nobody from reading: the file is in memory then.
 class DownloadSource final : public MessageSource<v1::MeshChunk> {
 public:
     static constexpr std::size_t kChunkBytes = std::size_t{256} * 1024;
@@ -22,7 +24,13 @@ public:
     struct File {
         service::MeshRef mesh;  ///< as written
         std::optional<service::FileMapping> mapping;
+        std::string text;    ///< instead, where there is no disk to write to
+        std::string digest;  ///< SHA-256
         std::uint32_t nodes_on_chord = 0;
+
+        [[nodiscard]] std::span<const std::byte> bytes() const {
+            return mapping ? mapping->bytes() : std::as_bytes(std::span(text));
+        }
     };
 
     /// \return NOT_FOUND, NOT_READY, INVALID_OPTION (also unit), UNSUPPORTED (order), UNAVAILABLE.

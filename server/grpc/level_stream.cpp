@@ -125,9 +125,8 @@ Expected<std::unique_ptr<MessageSource<v1::ProgressiveEvent>>> LevelSource::make
         news->plan.put(std::move(plan));
         wake();
         if (!found) return;
-        news->last.put(service::guarded([&]() -> Expected<v1::Representation> {
-            return to_proto(*representation, *kept.levels, kept.level);
-        }));
+        news->last.put(service::guarded(
+            [&]() -> Expected<v1::Representation> { return to_proto(*representation, *kept.levels, kept.level); }));
         wake();
     });
     if (!taken) return Error{Cause::kUnavailable, "the server is shutting down", ""};

@@ -58,7 +58,8 @@ private:
 /// SetResolution: parts, and last the representation, whose figures an errand works out meanwhile.
 class LevelSource final : public MessageSource<v1::ProgressiveEvent> {
 public:
-    /// \return NOT_FOUND, NOT_READY, INVALID_OPTION (encoding), UNAVAILABLE. What else is wrong with the request the stream ends with.
+    /// \return NOT_FOUND, NOT_READY, INVALID_OPTION (encoding), UNAVAILABLE. What else is wrong with the request the stream ends
+    /// with.
     [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
                                                                        const service::Caller& caller,
                                                                        const v1::SetResolutionRequest& request, const Wake& wake);

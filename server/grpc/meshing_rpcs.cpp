@@ -49,7 +49,8 @@ Status create_session(service::MeshingService& service, const service::Caller& c
 }
 
 /// A use of the session, as whatever finds it.
-Status show_session(service::MeshingService& service, const service::Caller& caller, const std::string& id, v1::Session& response) {
+Status show_session(service::MeshingService& service, const service::Caller& caller, const std::string& id,
+                    v1::Session& response) {
     const Expected<service::SessionSnapshot> session = service.snapshot(id, caller);
     if (!session) return session.error();
     response = to_proto(*session);

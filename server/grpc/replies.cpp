@@ -44,7 +44,8 @@ v1::Session to_proto(const service::SessionSnapshot& session) {
 
 v1::Representation to_proto(const service::Representation& representation) {
     const service::MeshRef& source = representation.source();
-    return wire::describe(representation.id(), source.representation, source.faces, representation.figures(), representation.extent());
+    return wire::describe(representation.id(), source.representation, source.faces, representation.figures(),
+                          representation.extent());
 }
 
 v1::Representation to_proto(const service::Representation& representation, const service::Levels& levels, std::size_t level) {

@@ -15,6 +15,7 @@ namespace vsplit::rpc {
 [[nodiscard]] v1::Representation to_proto(const service::Representation& representation);
 
 /// At another level. Heavy: O(level + faces log faces).
-[[nodiscard]] v1::Representation to_proto(const service::Representation& representation, const service::Levels& levels, std::size_t level);
+[[nodiscard]] v1::Representation to_proto(const service::Representation& representation, const service::Levels& levels,
+                                          std::size_t level);
 
 }  // namespace vsplit::rpc

@@ -35,7 +35,7 @@ std::shared_ptr<const TokenBook::Tokens> TokenBook::current() {
 
 std::optional<TokenBook::Holder> TokenBook::find(std::string_view token) {
     const std::shared_ptr<const Tokens> tokens = current();
-    const Token::Digest digest = digest_of(token);
+    const Digest digest = digest_of(token);
     std::size_t found = tokens->size();
     for (std::size_t i = 0; i < tokens->size(); ++i) {
         const Token& known = (*tokens)[i];

@@ -1,7 +1,5 @@
 #include "guard/token_file.h"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -32,8 +30,8 @@ std::optional<unsigned> hex_digit(char c) {
     return std::nullopt;
 }
 
-std::optional<Token::Digest> parse_digest(std::string_view text) {
-    Token::Digest digest{};
+std::optional<Digest> parse_digest(std::string_view text) {
+    Digest digest{};
     if (text.size() != 2 * digest.size()) return std::nullopt;
     for (std::size_t i = 0; i < digest.size(); ++i) {
         const std::optional<unsigned> high = hex_digit(text[2 * i]);
@@ -54,7 +52,7 @@ LineResult parse_line(std::string_view line) {
     LineResult result;
     const std::string_view name = take_word(line);
     const std::string_view access = take_word(line);
-    const std::optional<Token::Digest> digest = parse_digest(take_word(line));
+    const std::optional<Digest> digest = parse_digest(take_word(line));
     if (!is_token_name(name)) {
         result.wrong = "the first word is no name: 1 to 64 of letters, digits, '.', '_' and '-'";
     } else if (access != kReadOnly && access != kReadWrite) {
@@ -79,20 +77,9 @@ bool is_token_name(std::string_view name) {
     });
 }
 
-Token::Digest digest_of(std::string_view token) {
-    Token::Digest digest{};
-    EVP_Digest(token.data(), token.size(), digest.data(), nullptr, EVP_sha256(), nullptr);
-    return digest;
-}
-
 std::string token_line(const Token& token) {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    std::string line = token.name + ' ' + std::string(token.access == Access::kWrite ? kReadWrite : kReadOnly) + ' ';
-    for (const unsigned char byte : token.digest) {
-        line += kDigits[byte / 16U];
-        line += kDigits[byte % 16U];
-    }
-    return line;
+    return token.name + ' ' + std::string(token.access == Access::kWrite ? kReadWrite : kReadOnly) + ' ' +
+           hex_digits(token.digest);
 }
 
 Expected<std::vector<Token>> parse_token_file(std::string_view text, std::string_view source) {
@@ -102,7 +89,7 @@ Expected<std::vector<Token>> parse_token_file(std::string_view text, std::string
                      "token-file"};
     }
     std::vector<Token> tokens;
-    std::set<Token::Digest> digests;
+    std::set<Digest> digests;
     for (std::size_t number = 1; !text.empty(); ++number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         std::string_view line = without_comment(text.substr(0, end));

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "guard/digest.h"
 #include "vsplit/base/expected.h"
 
 namespace vsplit::guard {
@@ -15,11 +15,9 @@ enum class Access { kRead, kWrite };
 
 /// A bearer token as the server knows it: never the token itself.
 struct Token {
-    using Digest = std::array<unsigned char, 32>;
-
     std::string name;  ///< who has it; sessions belong to this name, and so to all tokens of the name
     Access access = Access::kRead;
-    Digest digest{};  ///< SHA-256 of the token
+    Digest digest{};  ///< of the token
 };
 
 inline constexpr std::size_t kMostTokenFileBytes = std::size_t{1} << 20;
@@ -37,8 +35,5 @@ inline constexpr std::size_t kShortestToken = 32;
 
 /// Whether a name may stand in a file: 1 to 64 of letters, digits, '.', '_' and '-'.
 [[nodiscard]] bool is_token_name(std::string_view name);
-
-/// SHA-256.
-[[nodiscard]] Token::Digest digest_of(std::string_view token);
 
 }  // namespace vsplit::guard

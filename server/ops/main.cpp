@@ -130,7 +130,9 @@ Expected<std::unique_ptr<rest::RestServer>> start_rest(const ServerOptions& opti
         metrics.http_ended(record);
         log_http(record);
     };
-    return rest::RestServer::start(address->host, address->port, std::move(backend), options.rest, observe, std::move(tls));
+    rest::RestOptions rest = options.rest;
+    rest.own_hosts_only = tls == nullptr && options.token_file.empty() && is_loopback(*address);
+    return rest::RestServer::start(address->host, address->port, std::move(backend), std::move(rest), observe, std::move(tls));
 }
 
 void drain(rpc::GrpcServer& server, rest::RestServer* rest, std::chrono::seconds grace) {
@@ -161,7 +163,8 @@ int serve(const ServerOptions& options, const ListenAddress& address, const std:
     Expected<std::optional<store::DataDir>> data = open_data_dir(options);
     if (!data) return fail(data.error().message);
     if (*data) service_options.temp_directory = (*data)->uploads();
-    service::MeshingService service(service_options, *data ? (*data)->take_archive() : std::make_unique<service::SessionArchive>());
+    service::MeshingService service(service_options,
+                                    *data ? (*data)->take_archive() : std::make_unique<service::SessionArchive>());
     if (const Status restored = service.restore(); !restored) return fail(restored.error().message);
     Expected<std::unique_ptr<rpc::GrpcServer>> server =
         rpc::GrpcServer::start(address.text(address.port), service, extras_of(options, *guard, metrics));

@@ -24,7 +24,8 @@ namespace vsplit::ops {
 /// by; vsplit_message_bytes_total (by direction) its messages. vsplit_http_requests_total (by status) and vsplit_http_bytes_total
 /// (bodies, by direction) are HTTP's own. vsplit_jobs_total (by method and outcome), vsplit_job_seconds, vsplit_job_wait_seconds
 /// and vsplit_job_faces_total (by method) are of methods that a worker was at. vsplit_memory_bytes and
-/// vsplit_evictions_total are of the budget of memory, vsplit_disk_bytes and vsplit_sessions_set_aside of the data directory. process_* are those that Prometheus' clients have.
+/// vsplit_evictions_total are of the budget of memory, vsplit_disk_bytes and vsplit_sessions_set_aside of the data directory.
+/// process_* are those that Prometheus' clients have.
 class Metrics final : public rpc::RpcMeter {
 public:
     Metrics();

@@ -1,15 +1,20 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 
 namespace vsplit::ops {
 
 // Files that the build puts into the program.
-[[nodiscard]] std::string_view page_html();
-[[nodiscard]] std::string_view page_script();
-[[nodiscard]] std::string_view page_worker();
-[[nodiscard]] std::string_view page_style();
-[[nodiscard]] std::string_view page_icon();
+
+struct EmbeddedFile {
+    std::string_view path;  ///< in its folder, without a slash before it
+    std::string_view bytes;
+};
+
+/// What Vite made of client/web.
+[[nodiscard]] std::span<const EmbeddedFile> built_page();
+
 [[nodiscard]] std::string_view sample_bracket();
 [[nodiscard]] std::string_view sample_scan();
 

@@ -24,9 +24,9 @@ struct ServerOptions {
     service::ServiceOptions service;
     std::string data_dir;              ///< where sessions outlive the server; empty: they do not
     std::uint64_t max_disk_bytes = 0;  ///< of meshes and representations in it; 0: no limit
-    std::string log_level = "info";   ///< debug, info, warning, error, off
-    std::string log_format = "text";  ///< text, json
-    double slow_job = 60;             ///< seconds; a method that takes longer is in the log as a warning; 0: none
+    std::string log_level = "info";    ///< debug, info, warning, error, off
+    std::string log_format = "text";   ///< text, json
+    double slow_job = 60;              ///< seconds; a method that takes longer is in the log as a warning; 0: none
     guard::TlsFiles tls;
     std::string token_file;                      ///< empty: calls need no token
     std::string new_token;                       ///< NAME:ACCESS; makes a token and ends

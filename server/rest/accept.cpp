@@ -15,13 +15,6 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-// Takes what stands before the next separator.
-std::string_view take(std::string_view& text, char separator) {
-    const std::string_view item = text.substr(0, text.find(separator));
-    text.remove_prefix(std::min(text.size(), item.size() + 1));
-    return trimmed(item);
-}
-
 double weight(std::string_view parameters) {
     while (!parameters.empty()) {
         const std::string_view parameter = take(parameters, ';');
@@ -59,6 +52,12 @@ double weight_of(std::string_view accept, std::string_view type) {
 }
 
 }  // namespace
+
+std::string_view take(std::string_view& text, char separator) {
+    const std::string_view item = text.substr(0, text.find(separator));
+    text.remove_prefix(std::min(text.size(), item.size() + 1));
+    return trimmed(item);
+}
 
 bool same_token(std::string_view a, std::string_view b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });

@@ -20,4 +20,7 @@ namespace vsplit::rest {
 /// Whether two names of media types, codings or tokens are the same: without regard to case.
 [[nodiscard]] bool same_token(std::string_view a, std::string_view b);
 
+/// Takes what stands in `text` before the next separator, or all, and the separator; without the blanks around it.
+[[nodiscard]] std::string_view take(std::string_view& text, char separator);
+
 }  // namespace vsplit::rest

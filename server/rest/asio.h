@@ -22,6 +22,7 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/system/error_code.hpp>
+#include <cstddef>
 #include <optional>
 
 /// Coroutines here take and await nothing that g++ 12 gets wrong: no parameter by value that has a destructor (but a shared_ptr),
@@ -38,6 +39,9 @@ using Awaitable = net::awaitable<T>;
 
 /// For an operation's last argument: awaits it and puts what went wrong into `error` instead of throwing it.
 inline auto into(ErrorCode& error) { return net::redirect_error(net::use_awaitable, error); }
+
+/// Bytes that take a thread that speaks to clients no more than a moment, whatever is made of them.
+inline constexpr std::size_t kMoment = std::size_t{64} * 1024;
 
 /// Runs `work` on a thread of `pool`, so that no connection waits for it, and goes on where the caller was.
 template <class Work>

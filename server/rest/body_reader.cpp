@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "rest/accept.h"
+#include "rest/read_alarm.h"
 
 namespace vsplit::rest {
 
@@ -35,8 +36,11 @@ Awaitable<ErrorCode> BodyReader::say_continue() {
 }
 
 Error BodyReader::failure(const ErrorCode& code) const {
-    if (code == beast::error::timeout) {
-        return {Cause::kDeadlineExceeded, "the body stopped after " + std::to_string(received_) + " bytes or came too slowly",
+    if (stalled_) {
+        return {Cause::kDeadlineExceeded,
+                "the body stopped after " + std::to_string(received_) + " bytes or came too slowly; accepted are pauses of " +
+                    std::to_string(std::chrono::duration_cast<std::chrono::seconds>(limits_.stall_time).count()) + " s, and " +
+                    std::to_string(limits_.slowest_body) + " bytes a second",
                 ""};
     }
     const bool broken = code.category() == make_error_code(http::error::bad_chunk).category() &&
@@ -57,10 +61,12 @@ Awaitable<Expected<std::size_t>> BodyReader::read_some(std::span<char> room) {
     body.data = room.data();
     body.size = room.size();
     while (!parser_.is_done() && body.size == room.size()) {
-        stream_.expires_at(deadline());
+        const ReadAlarm alarm(stream_, deadline());
         ErrorCode failed;
         co_await http::async_read_some(stream_, buffer_, parser_, into(failed));
-        if (failed && failed != http::error::need_buffer) co_return failure(failed);
+        if (!failed || failed == http::error::need_buffer) continue;
+        stalled_ = alarm.rang();
+        co_return failure(failed);
     }
     const std::size_t got = room.size() - body.size;
     received_ += got;

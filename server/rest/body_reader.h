@@ -26,6 +26,9 @@ public:
     [[nodiscard]] bool at_end() const { return parser_.is_done(); }
     [[nodiscard]] std::uint64_t received() const { return received_; }
 
+    /// Whether the client sent nothing for too long, or too little: there is somebody to tell, and no more to read.
+    [[nodiscard]] bool stalled() const { return stalled_; }
+
     /// Whether the client waits for a word before it sends the body.
     [[nodiscard]] bool client_waits() const { return client_waits_; }
 
@@ -45,6 +48,7 @@ private:
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::uint64_t received_ = 0;
     bool client_waits_ = false;
+    bool stalled_ = false;
 };
 
 }  // namespace vsplit::rest

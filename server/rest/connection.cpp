@@ -45,9 +45,10 @@ std::optional<Problem> check_header(const http::request<http::buffer_body>& requ
     // Where two readers of a message disagree about its end, one takes what follows for another request.
     const auto coding = request[http::field::transfer_encoding];
     const bool coded = request.count(http::field::transfer_encoding) > 0;
-    if (coded && (request.count(http::field::transfer_encoding) > 1 || !beast::iequals(coding, "chunked"))) {
-        return http_problem(501, Cause::kUnsupported, "the transfer coding is not understood; accepted is chunked alone",
-                            "Transfer-Encoding");
+    if (coded &&
+        (request.version() != 11 || request.count(http::field::transfer_encoding) > 1 || !beast::iequals(coding, "chunked"))) {
+        return http_problem(501, Cause::kUnsupported,
+                            "the transfer coding is not understood; accepted is chunked alone, in HTTP/1.1", "Transfer-Encoding");
     }
     const auto expect = request[http::field::expect];
     if (!expect.empty() && !beast::iequals(expect, "100-continue")) {

@@ -165,7 +165,7 @@ std::unique_ptr<EventWriter> make_writer(std::size_t offer, Exchange& exchange, 
 }  // namespace
 
 Awaitable<void> serve_events(Exchange& exchange, const Route& route, const Target& target, Tools tools) {
-    const std::optional<std::size_t> offer = choose_media_type(exchange.header(http::field::accept), kOffers);
+    const std::optional<std::size_t> offer = choose_media_type(exchange.list(http::field::accept), kOffers);
     if (!offer) co_return co_await exchange.fail(not_acceptable(kOffered));
     auto request = co_await read_request(exchange, route, target, tools.json);
     if (auto* problem = std::get_if<Problem>(&request)) co_return co_await exchange.fail(*problem);

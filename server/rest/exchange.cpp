@@ -6,6 +6,7 @@ namespace vsplit::rest {
 namespace {
 
 constexpr unsigned kUnauthorized = 401;
+constexpr unsigned kRequestTimeout = 408;
 
 // Boost 1.74's string_view is its own.
 std::string_view standard(beast::string_view text) { return {text.data(), text.size()}; }
@@ -32,11 +33,23 @@ std::string_view Exchange::header(std::string_view name) const {
     return standard(request_[beast::string_view(name.data(), name.size())]);
 }
 
-Awaitable<void> Exchange::fail(const Problem& problem) {
+std::string Exchange::list(http::field name) const {
+    std::string all;
+    const auto fields = request_.equal_range(name);
+    for (auto field = fields.first; field != fields.second; ++field) {
+        all += (all.empty() ? "" : ", ") + std::string(standard(field->value()));
+    }
+    return all;
+}
+
+Awaitable<void> Exchange::fail(const Problem& of_engine) {
     if (response_.begun()) {
         response_.close_after();
         co_return;
     }
+    Problem problem = of_engine;
+    // For a deadline that the client's own body has passed HTTP has another name.
+    if (body_.stalled() && problem.error.cause == Cause::kDeadlineExceeded) problem.status = kRequestTimeout;
     if (!body_.at_end()) response_.close_after();
     ResponseHead head;
     head.status = problem.status;

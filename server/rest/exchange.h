@@ -29,6 +29,9 @@ public:
     [[nodiscard]] std::string_view header(http::field name) const;
     [[nodiscard]] std::string_view header(std::string_view name) const;
 
+    /// One that is a list, which may stand in several fields: all of it.
+    [[nodiscard]] std::string list(http::field name) const;
+
     [[nodiscard]] BodyReader& body() { return body_; }
     [[nodiscard]] ResponseWriter& response() { return response_; }
     [[nodiscard]] LeaveWatch& leave_watch() { return leave_watch_; }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -6,6 +7,8 @@
 
 #include "rest/accept.h"
 #include "rest/byte_range.h"
+#include "rest/conditions.h"
+#include "rest/freshness.h"
 #include "rest/handlers.h"
 #include "rest/message_shape.h"
 #include "wire/error_table.h"
@@ -31,8 +34,9 @@ public:
     [[nodiscard]] std::string_view file_name() { return text(shape_.file_name, scratch_); }
     [[nodiscard]] std::string content_type() {
         const std::string_view type = text(shape_.content_type, scratch_);
-        return type.empty() ? "application/octet-stream" : std::string(type);
+        return std::string(type.empty() ? kBytesType : type);
     }
+    [[nodiscard]] std::string digest() { return std::string(text(shape_.digest, scratch_)); }
     [[nodiscard]] std::uint64_t size() const {
         return shape_.size == nullptr ? 0 : chunk_->GetReflection()->GetUInt64(*chunk_, shape_.size);
     }
@@ -70,21 +74,42 @@ std::string disposition(std::string_view name) {
     return "attachment; filename=\"" + safe + '"';
 }
 
-ResponseHead head_of(const Exchange& exchange, FileStream& file, const ByteRange& range) {
+// What is sent of a file, and as what.
+struct Answer {
+    std::string type;
+    Freshness freshness;
+    ByteRange range;
+    bool gzip = false;
+};
+
+// A part is of the file as it is: what gzip makes of it has no parts. Ranges are GET's alone.
+Answer plan(const Exchange& exchange, FileStream& file, std::string type) {
+    Answer answer{std::move(type), {"", "private, no-cache", "Accept, Accept-Encoding"}, {}, false};
+    const std::string digest = file.digest();
+    const std::string plain = digest.empty() ? "" : entity_tag(digest, "");
+    if (exchange.method() == "GET" && range_holds(exchange.header(http::field::if_range), plain)) {
+        answer.range = parse_range(exchange.header(http::field::range), file.size());
+    }
+    answer.gzip =
+        answer.range.kind == ByteRange::Kind::kWhole && accepts_encoding(exchange.list(http::field::accept_encoding), "gzip");
+    answer.freshness.etag = answer.gzip && !digest.empty() ? entity_tag(digest, "gzip") : plain;
+    return answer;
+}
+
+ResponseHead head_of(FileStream& file, const Answer& answer) {
     ResponseHead head;
-    head.content_type = file.content_type();
+    head.content_type = answer.type;
     head.length = file.size();
+    head.gzip = answer.gzip;
+    head.fields = fields_of(answer.freshness);
     head.fields.emplace_back("Content-Disposition", disposition(file.file_name()));
     head.fields.emplace_back("Accept-Ranges", "bytes");
-    head.fields.emplace_back("Cache-Control", "no-store");
-    head.fields.emplace_back("Vary", "Accept-Encoding");
-    if (range.kind == ByteRange::Kind::kPart) {
+    if (answer.range.kind == ByteRange::Kind::kPart) {
+        const std::string first = std::to_string(answer.range.first);
+        const std::string last = std::to_string(answer.range.last);
         head.status = 206;
-        head.length = range.last - range.first + 1;
-        head.fields.emplace_back("Content-Range", "bytes " + std::to_string(range.first) + '-' + std::to_string(range.last) +
-                                                      '/' + std::to_string(file.size()));
-    } else {
-        head.gzip = accepts_encoding(exchange.header(http::field::accept_encoding), "gzip");
+        head.length = answer.range.last - answer.range.first + 1;
+        head.fields.emplace_back("Content-Range", "bytes " + first + '-' + last + '/' + std::to_string(file.size()));
     }
     return head;
 }
@@ -105,32 +130,45 @@ Awaitable<bool> send_bytes(Exchange& exchange, FileStream& file, const ByteRange
     co_return going;
 }
 
-Awaitable<void> send_file(Exchange& exchange, FileStream& file) {
-    ByteRange range;
-    // If-Range needs a validator, and there is none that would fit: then the whole is what it asks for.
-    if (exchange.header(http::field::if_range).empty()) range = parse_range(exchange.header(http::field::range), file.size());
-    if (range.kind == ByteRange::Kind::kUnsatisfiable) {
-        Problem problem = http_problem(
-            416, Cause::kInvalidOption,
-            "the range begins behind the end of the file, which has " + std::to_string(file.size()) + " bytes", "Range");
-        problem.content_range = "bytes */" + std::to_string(file.size());
-        co_await exchange.fail(problem);
-        co_return co_await file.give_up(false);
-    }
-    const bool begun = co_await exchange.response().begin(head_of(exchange, file, range));
-    bool whole = false;
-    if (begun && exchange.response().head_only()) {
-        whole = true;
-    } else if (begun) {
-        whole = co_await send_bytes(exchange, file, range);
-    }
+Problem behind_the_end(std::uint64_t size) {
+    Problem problem =
+        http_problem(416, Cause::kInvalidOption,
+                     "the range begins behind the end of the file, which has " + std::to_string(size) + " bytes", "Range");
+    problem.content_range = "bytes */" + std::to_string(size);
+    return problem;
+}
+
+// True when nothing more is to come of the file.
+Awaitable<bool> send_file(Exchange& exchange, FileStream& file, const Answer& answer) {
+    const bool begun = co_await exchange.response().begin(head_of(file, answer));
+    bool whole = begun;
+    if (begun && !exchange.response().head_only()) whole = co_await send_bytes(exchange, file, answer.range);
     if (whole) {
         co_await exchange.response().end();
     } else {
         exchange.response().close_after();
     }
-    const bool to_the_end = range.kind == ByteRange::Kind::kWhole && !exchange.response().head_only();
-    co_await file.give_up(whole && to_the_end);
+    co_return whole&& answer.range.kind == ByteRange::Kind::kWhole && !exchange.response().head_only();
+}
+
+// True when nothing more is to come of the file.
+Awaitable<bool> answer_with(Exchange& exchange, FileStream& file) {
+    const std::string own = file.content_type();
+    const std::array<std::string_view, 2> offers{own, kBytesType};
+    const std::string accept = exchange.list(http::field::accept);
+    const std::optional<std::size_t> offer = choose_media_type(accept, offers);
+    if (!offer) {
+        const std::string offered = own == kBytesType ? own : own + " and " + std::string(kBytesType);
+        co_await exchange.fail(not_acceptable(offered));
+        co_return false;
+    }
+    const Answer answer = plan(exchange, file, std::string(offers[*offer]));
+    if (co_await answer_condition(exchange, answer.freshness)) co_return false;
+    if (answer.range.kind == ByteRange::Kind::kUnsatisfiable) {
+        co_await exchange.fail(behind_the_end(file.size()));
+        co_return false;
+    }
+    co_return co_await send_file(exchange, file, answer);
 }
 
 }  // namespace
@@ -142,7 +180,10 @@ Awaitable<void> serve_file(Exchange& exchange, const Route& route, const Target&
     cancel_when_left(exchange, call);
     co_await call->write(to_buffer(*std::get<std::unique_ptr<pb::Message>>(request)), true);
     FileStream file(call, tools.json.schema, *route.rpc->output_type());
-    if (co_await file.next()) co_return co_await send_file(exchange, file);
+    if (co_await file.next()) {
+        const bool to_the_end = co_await answer_with(exchange, file);
+        co_return co_await file.give_up(to_the_end);
+    }
     const grpc::Status status = co_await file.finish();
     Problem problem = problem_of(Error{Cause::kInternal, "the stream ended without a chunk", ""});
     if (!status.ok()) problem = problem_of(status);

@@ -1,9 +1,12 @@
 #include "rest/gateway.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "rest/accept.h"
+#include "rest/conditions.h"
 #include "rest/cors.h"
+#include "rest/freshness.h"
 #include "rest/message_shape.h"
 #include "rest/openapi.h"
 #include "wire/utf8.h"
@@ -11,7 +14,7 @@
 namespace vsplit::rest {
 namespace {
 
-constexpr unsigned kJsonThreads = 2;
+constexpr unsigned kHeavyThreads = 2;
 constexpr std::size_t kQuotedBytes = 200;
 constexpr std::size_t kLongPage = 1400;  // worth compressing
 constexpr std::string_view kPageMethods = "GET, HEAD, OPTIONS";
@@ -26,6 +29,11 @@ Problem wrong_method(const Exchange& exchange, std::string allowed) {
         405, Cause::kUnsupported, "the path has no " + wire::valid_utf8(exchange.method(), kQuotedBytes) + "; it has " + allowed);
     problem.allow = std::move(allowed);
     return problem;
+}
+
+// gRPC ends the program where metadata is anything else.
+bool is_metadata(std::string_view text) {
+    return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
 }
 
 bool is_get(const Exchange& exchange) { return exchange.method() == "GET" || exchange.method() == "HEAD"; }
@@ -53,13 +61,13 @@ Gateway::Gateway(Backend backend, RestOptions options, std::unique_ptr<Schema> s
       schema_(std::move(schema)),
       router_(std::move(router)),
       budget_(options_.limits.all_json_bytes),
-      json_pool_(kJsonThreads),
+      pool_(kHeavyThreads),
       rpcs_(backend_.channel) {
     pages_ = operations_pages({backend_.ready, backend_.metrics, openapi_document(*schema_, router_, backend_.version)});
     for (auto& [path, page] : backend_.pages) pages_[path] = page;
 }
 
-Gateway::~Gateway() { json_pool_.join(); }
+Gateway::~Gateway() { pool_.join(); }
 
 Expected<std::unique_ptr<Gateway>> Gateway::make(Backend backend, RestOptions options) {
     Expected<std::unique_ptr<Schema>> schema = Schema::make(backend.descriptor_sets, backend.services);
@@ -69,7 +77,7 @@ Expected<std::unique_ptr<Gateway>> Gateway::make(Backend backend, RestOptions op
     return std::unique_ptr<Gateway>(new Gateway(std::move(backend), std::move(options), *std::move(schema), *std::move(router)));
 }
 
-ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& request) const {
+ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& request) {
     const auto field = [&request](http::field name) {
         const auto text = request[name];
         return std::string_view(text.data(), text.size());
@@ -78,13 +86,26 @@ ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& reques
     manner.version = request.version();
     manner.keep_alive = request.keep_alive();
     manner.head_only = request.method() == http::verb::head;
+    manner.pool = &pool_;
     manner.fields = check_origin(field(http::field::origin), field(http::field::host), options_.cors_origins).fields;
     return manner;
 }
 
 Awaitable<void> Gateway::serve(Exchange& exchange) {
+    if (!is_metadata(exchange.header(http::field::authorization))) {
+        co_return co_await exchange.fail(http_problem(
+            400, Cause::kMalformedInput, "the header holds more than visible ASCII; accepted is Bearer TOKEN", "Authorization"));
+    }
+    const std::string_view host = exchange.header(http::field::host);
+    if (options_.own_hosts_only && !is_own_host(host, options_.cors_origins)) {
+        co_return co_await exchange.fail(
+            http_problem(421, Cause::kInvalidOption,
+                         "this server is not known as " + wire::valid_utf8(host, kQuotedBytes) +
+                             "; accepted are addresses, localhost, and the hosts of vsplitd --cors-origin",
+                         "Host"));
+    }
     const std::string_view origin = exchange.header(http::field::origin);
-    if (check_origin(origin, exchange.header(http::field::host), options_.cors_origins).refused) {
+    if (check_origin(origin, host, options_.cors_origins).refused) {
         co_return co_await exchange.fail(http_problem(403, Cause::kInvalidOption,
                                                       "pages of " + wire::valid_utf8(origin, kQuotedBytes) +
                                                           " may not use this server; vsplitd --cors-origin allows an origin",
@@ -131,11 +152,15 @@ Awaitable<void> Gateway::serve_options(Exchange& exchange, const std::string& al
 
 Awaitable<void> Gateway::serve_page(Exchange& exchange, const Page& page) {
     const std::string text = page.text();
+    const bool gzip = text.size() > kLongPage && accepts_encoding(exchange.list(http::field::accept_encoding), "gzip");
+    const Freshness freshness{page.digest.empty() ? "" : entity_tag(page.digest, gzip ? "gzip" : ""), page.cache_control,
+                              "Accept-Encoding"};
+    if (co_await answer_condition(exchange, freshness)) co_return;
     ResponseHead head;
     head.content_type = page.content_type;
-    head.fields = page.fields;
-    head.fields.emplace_back("Vary", "Accept-Encoding");
-    head.gzip = text.size() > kLongPage && accepts_encoding(exchange.header(http::field::accept_encoding), "gzip");
+    head.fields = fields_of(freshness);
+    head.fields.insert(head.fields.end(), page.fields.begin(), page.fields.end());
+    head.gzip = gzip;
     if (!exchange.body().at_end()) exchange.response().close_after();
     co_await exchange.response().respond(head, text);
 }
@@ -148,7 +173,7 @@ Awaitable<void> Gateway::serve_ready(Exchange& exchange) {
 }
 
 Awaitable<void> Gateway::serve_rpc(Exchange& exchange, const Route& route, const Target& target) {
-    const Tools tools{rpcs_, {*schema_, json_pool_, budget_}};
+    const Tools tools{rpcs_, {*schema_, pool_, budget_}};
     if (creates_with_mesh(exchange, route)) co_return co_await serve_create_with_mesh(exchange, route, target, tools);
     switch (shape_of(*route.rpc)) {
         case RpcShape::kUnary:

@@ -41,7 +41,7 @@ public:
     [[nodiscard]] const RestLimits& limits() const { return options_.limits; }
 
     /// How the answer to this request is written.
-    [[nodiscard]] ResponseManner manner_of(const http::request<http::buffer_body>& request) const;
+    [[nodiscard]] ResponseManner manner_of(const http::request<http::buffer_body>& request);
 
     /// Answers it, whatever it is. Throws bad_alloc only.
     Awaitable<void> serve(Exchange& exchange);
@@ -61,7 +61,7 @@ private:
     const Router router_;
     Pages pages_;
     JsonBudget budget_;
-    net::thread_pool json_pool_;
+    net::thread_pool pool_;
     RpcClient rpcs_;
 };
 

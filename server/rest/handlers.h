@@ -3,6 +3,7 @@
 #include <google/protobuf/message.h>
 
 #include <memory>
+#include <string_view>
 
 #include "rest/exchange.h"
 #include "rest/json_body.h"
@@ -17,6 +18,8 @@ struct Tools {
     JsonWorks json;
 };
 
+inline constexpr std::string_view kBytesType = "application/octet-stream";
+
 /// One function a shape of rpc: it reads what it needs of the body, calls the rpc, and writes the answer. None throws but
 /// bad_alloc.
 Awaitable<void> serve_unary(Exchange& exchange, const Route& route, const Target& target, Tools tools);
@@ -24,7 +27,7 @@ Awaitable<void> serve_unary(Exchange& exchange, const Route& route, const Target
 /// Accept decides: the result as JSON when it is there, an event a line, or the events as they are.
 Awaitable<void> serve_events(Exchange& exchange, const Route& route, const Target& target, Tools tools);
 
-/// A file, or the range of it that is asked for.
+/// A file, or the range of it that is asked for. Every file is also just bytes.
 Awaitable<void> serve_file(Exchange& exchange, const Route& route, const Target& target, Tools tools);
 
 /// The body goes in as it comes, a chunk at a time.

@@ -15,9 +15,6 @@ namespace pb = google::protobuf;
 
 namespace {
 
-// What takes a thread that speaks to clients no more than a moment.
-constexpr std::size_t kShort = std::size_t{64} * 1024;
-
 // Worth compressing.
 constexpr std::size_t kLong = 1400;
 
@@ -43,8 +40,8 @@ Awaitable<TextOrProblem> read_text(Exchange& exchange, JsonShare& share) {
         // Taken as it comes, not as it is announced: a client that only claims much holds nothing.
         constexpr std::size_t kPart = std::size_t{64} * 1024;
         const std::size_t room = std::min<std::uint64_t>(kPart, declared.value_or(limits.json_bytes + 1) - text.size());
-        if (!share.grow(room)) co_return too_many_now();
         const std::size_t before = text.size();
+        if (!share.hold(before + room)) co_return too_many_now();
         text.resize(before + room);
         const Expected<std::size_t> got = co_await exchange.body().read_some({text.data() + before, room});
         if (!got) co_return problem_of(got.error());
@@ -95,9 +92,10 @@ Awaitable<std::variant<std::unique_ptr<pb::Message>, Problem>> read_request(Exch
         }
         const std::string_view type = exchange.header(http::field::content_type);
         if (!type.empty() && !is_json(type)) co_return wrong_body_type(exchange, kJsonType);
+        if (std::optional<Problem> coded = refuse_coding(exchange)) co_return *std::move(coded);
         const auto parse = [&] { return take_body(route, text, *request); };
         Status parsed = Done{};
-        if (text.size() < kShort) {
+        if (text.size() < kMoment) {
             parsed = parse();
         } else {
             parsed = co_await off_thread(works.pool, parse);
@@ -111,7 +109,7 @@ Awaitable<std::variant<std::unique_ptr<pb::Message>, Problem>> read_request(Exch
 
 Awaitable<std::string> write_json(const pb::Message& message, JsonWorks works) {
     const auto write = [&message] { return wire::to_json(message) + '\n'; };
-    if (message.ByteSizeLong() < kShort) co_return write();
+    if (message.ByteSizeLong() < kMoment) co_return write();
     co_return co_await off_thread(works.pool, write);
 }
 
@@ -121,18 +119,25 @@ Awaitable<void> respond_json(Exchange& exchange, const pb::Message& message, Jso
     head.content_type = kJsonType;
     head.fields.emplace_back("Cache-Control", "no-store");
     head.fields.emplace_back("Vary", "Accept, Accept-Encoding");
-    head.gzip = text.size() > kLong && accepts_encoding(exchange.header(http::field::accept_encoding), "gzip");
+    head.gzip = text.size() > kLong && accepts_encoding(exchange.list(http::field::accept_encoding), "gzip");
     co_await exchange.response().respond(head, text);
 }
 
 bool accepts_json(const Exchange& exchange) {
     constexpr std::array kOffers{kJsonType};
-    return choose_media_type(exchange.header(http::field::accept), kOffers).has_value();
+    return choose_media_type(exchange.list(http::field::accept), kOffers).has_value();
 }
 
 Problem not_acceptable(std::string_view offered) {
     return http_problem(406, Cause::kUnsupported, "nothing that Accept names is offered here; offered is " + std::string(offered),
                         "Accept");
+}
+
+std::optional<Problem> refuse_coding(const Exchange& exchange) {
+    const std::string_view coding = exchange.header(http::field::content_encoding);
+    if (coding.empty() || same_token(coding, "identity")) return std::nullopt;
+    return http_problem(415, Cause::kUnsupported, "the body has a Content-Encoding; accepted is the body as it is",
+                        "Content-Encoding");
 }
 
 Problem wrong_body_type(const Exchange& exchange, std::string_view accepted) {

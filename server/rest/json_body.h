@@ -3,6 +3,7 @@
 #include <google/protobuf/message.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -42,6 +43,9 @@ Awaitable<void> respond_json(Exchange& exchange, const google::protobuf::Message
 
 /// 415, naming what is taken.
 [[nodiscard]] Problem wrong_body_type(const Exchange& exchange, std::string_view accepted);
+
+/// 415 for a body that is compressed.
+[[nodiscard]] std::optional<Problem> refuse_coding(const Exchange& exchange);
 
 inline constexpr std::string_view kJsonType = "application/json";
 

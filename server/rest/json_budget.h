@@ -38,9 +38,11 @@ public:
     JsonShare& operator=(JsonShare&&) = delete;
     ~JsonShare() { budget_->give_back(held_); }
 
-    [[nodiscard]] bool grow(std::uint64_t bytes) {
-        if (!budget_->take(bytes)) return false;
-        held_ += bytes;
+    /// Holds so many bytes in all from now on, never fewer than before; false where the budget has not so many left.
+    [[nodiscard]] bool hold(std::uint64_t bytes) {
+        if (bytes <= held_) return true;
+        if (!budget_->take(bytes - held_)) return false;
+        held_ = bytes;
         return true;
     }
 

@@ -14,9 +14,9 @@ const Field* find(const pb::Descriptor& type, const char* name, Field::Type kind
 }  // namespace
 
 std::optional<ChunkShape> ChunkShape::of(const pb::Descriptor& type) {
-    const ChunkShape shape{find(type, "data", Field::TYPE_BYTES), find(type, "offset", Field::TYPE_UINT64),
-                           find(type, "size", Field::TYPE_UINT64), find(type, "file_name", Field::TYPE_STRING),
-                           find(type, "content_type", Field::TYPE_STRING)};
+    const ChunkShape shape{find(type, "data", Field::TYPE_BYTES),          find(type, "offset", Field::TYPE_UINT64),
+                           find(type, "size", Field::TYPE_UINT64),         find(type, "file_name", Field::TYPE_STRING),
+                           find(type, "content_type", Field::TYPE_STRING), find(type, "digest", Field::TYPE_STRING)};
     if (shape.data == nullptr || shape.offset == nullptr) return std::nullopt;
     return shape;
 }

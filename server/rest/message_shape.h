@@ -13,6 +13,7 @@ struct ChunkShape {
     const google::protobuf::FieldDescriptor* size = nullptr;          ///< uint64: of the whole
     const google::protobuf::FieldDescriptor* file_name = nullptr;     ///< string
     const google::protobuf::FieldDescriptor* content_type = nullptr;  ///< string
+    const google::protobuf::FieldDescriptor* digest = nullptr;        ///< string: of the whole, by which its bytes are known
 
     /// Empty for any other message.
     [[nodiscard]] static std::optional<ChunkShape> of(const google::protobuf::Descriptor& type);

@@ -79,13 +79,13 @@ private:
         if (shape_of(rpc_) == RpcShape::kUpload) {
             return {{"required", true},
                     {"description", "The file as it is, of any size."},
-                    {"content", {{"application/octet-stream", binary}}}};
+                    {"content", {{std::string(kBytesType), binary}}}};
         }
         if (route_.body.empty()) return {};
         const Json json{{"schema", body_schema()}};
         if (!takes_mesh_body(rpc_)) return {{"content", {{std::string(kJsonType), json}}}};
         return {{"description", "A mesh file as it is, of any size, or JSON, or nothing."},
-                {"content", {{"application/octet-stream", binary}, {std::string(kJsonType), json}}}};
+                {"content", {{std::string(kBytesType), binary}, {std::string(kJsonType), json}}}};
     }
 
     [[nodiscard]] Json body_schema() const {
@@ -97,20 +97,27 @@ private:
         Json all;
         all["200"] = success();
         if (shape_of(rpc_) == RpcShape::kFile) {
-            all["206"] = {{"description", "The range of the file that Range asks for."},
-                          {"content", {{"application/octet-stream", Json::object()}}}};
+            all["206"] = file("The range of the file that Range asks for, where If-Range names the file or is absent.");
+            all["304"] = {{"description", "If-None-Match names the file: the client has it."}};
         }
         all["default"] = {{"$ref", "#/components/responses/Problem"}};
         return all;
+    }
+
+    [[nodiscard]] static Json file(const char* description) {
+        const auto header = [](const char* text) { return Json{{"description", text}, {"schema", {{"type", "string"}}}}; };
+        return {{"description", description},
+                {"headers",
+                 {{"Content-Disposition", header("Its name.")},
+                  {"ETag", header("By which it is known: the same bytes have the same, whatever session they come from.")}}},
+                {"content", {{std::string(kBytesType), Json::object()}}}};
     }
 
     [[nodiscard]] Json success() const {
         const pb::Descriptor& type = *rpc_.output_type();
         switch (shape_of(rpc_)) {
             case RpcShape::kFile:
-                return {{"description", "The file."},
-                        {"headers", {{"Content-Disposition", {{"description", "Its name."}, {"schema", {{"type", "string"}}}}}}},
-                        {"content", {{"application/octet-stream", Json::object()}}}};
+                return file("The file, as its own type or, where Accept names that, as application/octet-stream.");
             case RpcShape::kEvents:
                 return {
                     {"description",

@@ -1,5 +1,9 @@
 #include "rest/pages.h"
 
+#include <utility>
+
+#include "guard/digest.h"
+
 namespace vsplit::rest {
 namespace {
 
@@ -12,13 +16,22 @@ constexpr const char* kWelcome =
 
 }  // namespace
 
+Page unchanging(Page page) {
+    page.digest = guard::hex_digits(guard::digest_of(page.text()));
+    return page;
+}
+
 Pages operations_pages(const Operations& operations) {
-    const HeaderFields fresh{{"Cache-Control", "no-store"}};
+    constexpr const char* kAskAgain = "no-cache";
     Pages pages;
-    pages["/"] = {"text/plain; charset=utf-8", [] { return std::string(kWelcome); }};
-    pages["/healthz"] = {"application/json", [] { return std::string("{\"status\":\"SERVING\"}\n"); }, fresh};
-    pages["/openapi.json"] = {"application/json", [document = operations.openapi] { return document; }};
-    if (operations.metrics) pages["/metrics"] = {"text/plain; version=0.0.4; charset=utf-8", operations.metrics, fresh, true};
+    pages["/"] = unchanging({"text/plain; charset=utf-8", [] { return std::string(kWelcome); }, {}, kAskAgain});
+    pages["/healthz"] = {"application/json", [] { return std::string("{\"status\":\"SERVING\"}\n"); }};
+    pages["/openapi.json"] =
+        unchanging({"application/json", [document = operations.openapi] { return document; }, {}, kAskAgain});
+    if (operations.metrics) {
+        pages["/metrics"] = {"text/plain; version=0.0.4; charset=utf-8", operations.metrics};
+        pages["/metrics"].guarded = true;
+    }
     return pages;
 }
 

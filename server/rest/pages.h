@@ -14,8 +14,13 @@ struct Page {
     std::string content_type;
     std::function<std::string()> text;
     HeaderFields fields = {};
-    bool guarded = false;  ///< for those only whom Backend::admit lets in
+    std::string cache_control = "no-store";
+    std::string digest = {};  ///< of a text that never changes, by which a client knows that it has it; empty for others
+    bool guarded = false;     ///< for those only whom Backend::admit lets in
 };
+
+/// `page`, whose text never changes, with its digest. O(text).
+[[nodiscard]] Page unchanging(Page page);
 
 /// By path. A path ends in no slash but "/".
 using Pages = std::map<std::string, Page, std::less<>>;

@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 
+#include "wire/field.h"
 #include "wire/json.h"
 #include "wire/utf8.h"
 
@@ -21,26 +22,6 @@ namespace {
 constexpr std::size_t kQuotedBytes = 100;
 
 std::string quoted(std::string_view text) { return '"' + wire::valid_utf8(text, kQuotedBytes) + '"'; }
-
-Error bad_value(std::string_view name, std::string_view text, const std::string& accepted) {
-    const std::string field = wire::valid_utf8(name, kQuotedBytes);
-    return {Cause::kInvalidOption, field + " is " + quoted(text) + "; accepted is " + accepted, field};
-}
-
-Error unknown_field(std::string_view name, const pb::Descriptor& type) {
-    std::string known;
-    for (int i = 0; i < type.field_count(); ++i) known += (i == 0 ? "" : ", ") + type.field(i)->json_name();
-    const std::string field = wire::valid_utf8(name, kQuotedBytes);
-    return {Cause::kInvalidOption,
-            type.name() + " has no field " + quoted(name) + (known.empty() ? "" : "; accepted are " + known), field};
-}
-
-const Field* find_field(const pb::Descriptor& type, std::string_view name) {
-    for (int i = 0; i < type.field_count(); ++i) {
-        if (type.field(i)->name() == name || type.field(i)->json_name() == name) return type.field(i);
-    }
-    return nullptr;
-}
 
 template <class Number>
 bool parse(std::string_view text, Number& value) {
@@ -58,18 +39,17 @@ public:
         using Reflection = pb::Reflection;
         switch (field_.cpp_type()) {
             case Field::CPPTYPE_INT32:
-                return number<std::int32_t>(&Reflection::SetInt32, &Reflection::AddInt32, "a whole number of 32 bits");
+                return number<std::int32_t>(&Reflection::SetInt32, &Reflection::AddInt32);
             case Field::CPPTYPE_INT64:
-                return number<std::int64_t>(&Reflection::SetInt64, &Reflection::AddInt64, "a whole number of 64 bits");
+                return number<std::int64_t>(&Reflection::SetInt64, &Reflection::AddInt64);
             case Field::CPPTYPE_UINT32:
-                return number<std::uint32_t>(&Reflection::SetUInt32, &Reflection::AddUInt32,
-                                             "a whole number from 0 to 4294967295");
+                return number<std::uint32_t>(&Reflection::SetUInt32, &Reflection::AddUInt32);
             case Field::CPPTYPE_UINT64:
-                return number<std::uint64_t>(&Reflection::SetUInt64, &Reflection::AddUInt64, "a whole number of 0 or more");
+                return number<std::uint64_t>(&Reflection::SetUInt64, &Reflection::AddUInt64);
             case Field::CPPTYPE_DOUBLE:
-                return number<double>(&Reflection::SetDouble, &Reflection::AddDouble, "a number");
+                return number<double>(&Reflection::SetDouble, &Reflection::AddDouble);
             case Field::CPPTYPE_FLOAT:
-                return number<float>(&Reflection::SetFloat, &Reflection::AddFloat, "a number");
+                return number<float>(&Reflection::SetFloat, &Reflection::AddFloat);
             case Field::CPPTYPE_BOOL:
                 return boolean();
             case Field::CPPTYPE_ENUM:
@@ -94,15 +74,17 @@ private:
         return Done{};
     }
 
+    [[nodiscard]] Error refusal() const { return wire::bad_value(name_, quoted(text_), wire::accepted_values(field_)); }
+
     template <class Number, class Set, class Add>
-    Status number(Set set, Add add, const char* accepted) const {
+    Status number(Set set, Add add) const {
         Number value{};
-        if (!parse(text_, value)) return bad_value(name_, text_, accepted);
+        if (!parse(text_, value)) return refusal();
         return put(set, add, value);
     }
 
     Status boolean() const {
-        if (text_ != "true" && text_ != "false") return bad_value(name_, text_, "true or false");
+        if (text_ != "true" && text_ != "false") return refusal();
         return put(&pb::Reflection::SetBool, &pb::Reflection::AddBool, text_ == "true");
     }
 
@@ -117,9 +99,7 @@ private:
         int number = 0;
         if (value == nullptr && parse(text_, number)) value = type.FindValueByNumber(number);
         if (value != nullptr) return put(&pb::Reflection::SetEnumValue, &pb::Reflection::AddEnumValue, value->number());
-        std::string names;
-        for (int i = 0; i < type.value_count(); ++i) names += (i == 0 ? "" : ", ") + type.value(i)->name();
-        return bad_value(name_, text_, "one of " + names);
+        return refusal();
     }
 
     Status string() const {
@@ -136,9 +116,7 @@ private:
             field_.is_repeated() ? *reflection.AddMessage(&message_, &field_) : *reflection.MutableMessage(&message_, &field_);
         const bool quotable = text_.find_first_of("\"\\") == std::string_view::npos;
         if (quotable && wire::from_json('"' + std::string(text_) + '"', value)) return Done{};
-        return bad_value(
-            name_, text_,
-            "what JSON writes for a " + field_.message_type()->full_name() + "; the fields of a message are named with a dot");
+        return refusal();
     }
 
     pb::Message& message_;
@@ -154,11 +132,11 @@ Status set_field(pb::Message& message, std::string_view name, std::string_view t
     std::string_view rest = name;
     for (;;) {
         const std::size_t dot = rest.find('.');
-        const Field* const field = find_field(*owner->GetDescriptor(), rest.substr(0, dot));
-        if (field == nullptr) return unknown_field(name, *owner->GetDescriptor());
+        const Field* const field = wire::find_field(*owner->GetDescriptor(), rest.substr(0, dot));
+        if (field == nullptr) return wire::unknown_field(name, *owner->GetDescriptor());
         if (dot == std::string_view::npos) return FieldWriter(*owner, *field, name, text).write();
         if (field->cpp_type() != Field::CPPTYPE_MESSAGE || field->is_repeated()) {
-            return unknown_field(name, *owner->GetDescriptor());
+            return wire::unknown_field(name, *owner->GetDescriptor());
         }
         owner = owner->GetReflection()->MutableMessage(owner, field);
         rest.remove_prefix(dot + 1);

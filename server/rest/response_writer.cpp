@@ -108,12 +108,23 @@ Awaitable<bool> ResponseWriter::write(const Parts& parts) {
     if (manner_.head_only || !has_body_) co_return !failed_;
     if (!gzip_) co_return co_await send_chunk(parts);
     for (const net::const_buffer& part : parts) {
-        const std::string made = gzip_->take({static_cast<const char*>(part.data()), part.size()}, false);
-        const Parts compressed = one(made);
-        const bool sent = co_await send_chunk(compressed);
+        const std::string_view text(static_cast<const char*>(part.data()), part.size());
+        const bool sent = co_await send_compressed(text);
         if (!sent) co_return false;
     }
     co_return true;
+}
+
+Awaitable<bool> ResponseWriter::send_compressed(std::string_view part) {
+    const auto compress = [this, part] { return gzip_->take(part, false); };
+    std::string made;
+    if (manner_.pool == nullptr || part.size() < kMoment) {
+        made = compress();
+    } else {
+        made = co_await off_thread(*manner_.pool, compress);
+    }
+    const Parts parts = one(made);
+    co_return co_await send_chunk(parts);
 }
 
 Awaitable<bool> ResponseWriter::write(std::string_view part) {

@@ -29,7 +29,8 @@ struct ResponseManner {
     unsigned version = 11;
     bool keep_alive = true;
     bool head_only = false;
-    HeaderFields fields;  ///< of every answer, CORS's for example
+    HeaderFields fields;               ///< of every answer, CORS's for example
+    net::thread_pool* pool = nullptr;  ///< for what is heavy; none for answers that never are
 };
 
 /// Bytes that are written one after another.
@@ -65,6 +66,7 @@ private:
     [[nodiscard]] http::response<http::empty_body> make_header(const ResponseHead& head);
     Awaitable<bool> send(const Parts& parts);
     Awaitable<bool> send_chunk(const Parts& parts);
+    Awaitable<bool> send_compressed(std::string_view part);
 
     Stream& stream_;
     ResponseManner manner_;

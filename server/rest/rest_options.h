@@ -25,7 +25,8 @@ struct RestLimits {
 struct RestOptions {
     RestLimits limits;
     std::vector<std::string> cors_origins;  ///< pages of these origins may use the server; "*" for all. Default: none but its own
-    unsigned threads = 2;                   ///< that speak to clients; none of them computes
+    bool own_hosts_only = false;  ///< refuses a Host that is_own_host does not know; for servers that trust who reaches them
+    unsigned threads = 2;         ///< that speak to clients; none of them computes
 };
 
 }  // namespace vsplit::rest

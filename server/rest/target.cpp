@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "rest/accept.h"
 #include "rest/percent.h"
 
 namespace vsplit::rest {
@@ -17,7 +18,7 @@ Error malformed(std::string message) { return {Cause::kMalformedInput, std::move
 // What follows scheme and host, which proxies and some clients send.
 std::string_view without_origin(std::string_view text) {
     for (const std::string_view scheme : {"http://", "https://"}) {
-        if (text.substr(0, scheme.size()) != scheme) continue;
+        if (!same_token(text.substr(0, scheme.size()), scheme)) continue;
         const std::size_t path = text.find_first_of("/?", scheme.size());
         return path == std::string_view::npos ? std::string_view("/") : text.substr(path);
     }

@@ -25,12 +25,7 @@ std::optional<Problem> refuse_body(const Exchange& exchange) {
     if (same_token(type, kJsonType) || same_token(type, kMultipart)) {
         return wrong_body_type(exchange, "the file as it is (curl -T FILE), as application/octet-stream or any other type");
     }
-    const std::string_view coding = exchange.header(http::field::content_encoding);
-    if (!coding.empty() && !same_token(coding, "identity")) {
-        return http_problem(415, Cause::kUnsupported, "the body has a Content-Encoding; accepted is the file as it is",
-                            "Content-Encoding");
-    }
-    return std::nullopt;
+    return refuse_coding(exchange);
 }
 
 // A body on its way into an rpc that takes chunks.

@@ -18,8 +18,8 @@ struct Paid {
     MemoryBudget::Share share;
 };
 
-/// The resolutions of a representation, for its readers, who share it without waiting. The meshes and encodings asked for last are
-/// kept where memory has room for them. Thread-safe.
+/// The resolutions of a representation, for its readers, who share it without waiting. The meshes and encodings asked for last
+/// are kept where memory has room for them. Thread-safe.
 class Levels {
 public:
     /// `budget` outlives this.

@@ -22,7 +22,7 @@ struct Limits {
     std::uint32_t waiting_jobs = 8;                       ///< of a session, besides the one that runs
     std::uint32_t queued_jobs = 1000;                     ///< of all sessions, for a worker or for another of their session
     std::uint32_t job_seconds = 3600;                     ///< that one method runs
-    std::uint64_t memory_bytes = 0;  ///< of meshes, representations and methods together; 0: no limit
+    std::uint64_t memory_bytes = 0;                       ///< of meshes, representations and methods together; 0: no limit
 };
 
 struct ServiceOptions {

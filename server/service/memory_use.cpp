@@ -1,16 +1,25 @@
 #include "service/memory_use.h"
 
+#include "vsplit/io/mesh_format.h"
+#include "vsplit/io/read_mesh.h"
+
 namespace vsplit::service {
 namespace {
 
-// Measured: docs/operations.md.
-constexpr std::uint64_t kBytesAFace = 260;
-constexpr std::uint64_t kReadFactor = 3;
+// Measured: docs/operations.md, "Memory". Bytes a face.
+constexpr std::uint64_t kToSimplify = 260;
+constexpr std::uint64_t kToRead = 70;
+constexpr std::uint64_t kToRepair = 270;
+
+// Of a file, a face takes no less.
+constexpr std::uint64_t kStlFace = 50;
+constexpr std::uint64_t kOtherFace = 15;
 
 }  // namespace
 
 std::uint64_t memory_of(const TriangleMesh& mesh) {
-    return mesh.positions.size() * sizeof(Vec3) + mesh.faces.size() * sizeof(Triangle) + mesh.regions.size() * sizeof(std::uint32_t);
+    return mesh.positions.size() * sizeof(Vec3) + mesh.faces.size() * sizeof(Triangle) +
+           mesh.regions.size() * sizeof(std::uint32_t);
 }
 
 std::uint64_t memory_of(const MultiresMesh& mrr) {
@@ -19,8 +28,13 @@ std::uint64_t memory_of(const MultiresMesh& mrr) {
            records.moves.size_bytes() + (mrr.border_splits.size() + mrr.regions.size()) * sizeof(std::uint32_t);
 }
 
-std::uint64_t memory_to_read(std::uint64_t file_bytes) { return kReadFactor * file_bytes; }
+std::uint64_t memory_to_read(std::span<const std::byte> file, bool repair) {
+    const std::uint64_t faces = unpacked_size(file) / (detect_format(file) == MeshFormat::kStlBinary ? kStlFace : kOtherFace);
+    return memory_to_read(faces, repair);
+}
 
-std::uint64_t memory_to_simplify(std::uint64_t faces) { return kBytesAFace * faces; }
+std::uint64_t memory_to_read(std::uint64_t faces, bool repair) { return faces * (repair ? kToRepair : kToRead); }
+
+std::uint64_t memory_to_simplify(std::uint64_t faces) { return kToSimplify * faces; }
 
 }  // namespace vsplit::service

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "vsplit/mesh/triangle_mesh.h"
 #include "vsplit/mrr/multires_mesh.h"
@@ -12,8 +14,9 @@ namespace vsplit::service {
 [[nodiscard]] std::uint64_t memory_of(const TriangleMesh& mesh);
 [[nodiscard]] std::uint64_t memory_of(const MultiresMesh& mrr);
 
-/// What reading a file takes while it goes on, the mesh included.
-[[nodiscard]] std::uint64_t memory_to_read(std::uint64_t file_bytes);
+/// What reading a file takes while it goes on, the mesh included; a repair takes more.
+[[nodiscard]] std::uint64_t memory_to_read(std::span<const std::byte> file, bool repair);
+[[nodiscard]] std::uint64_t memory_to_read(std::uint64_t faces, bool repair);
 
 /// What a method takes while it runs, the result included, for `faces` after subdivision.
 [[nodiscard]] std::uint64_t memory_to_simplify(std::uint64_t faces);

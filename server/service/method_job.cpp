@@ -91,6 +91,7 @@ JobOutcome MethodJob::compute() {
 }
 
 JobOutcome MethodJob::make(const MethodRequest& request, const TriangleMesh& mesh) {
+    if (Status room = session_->require_room(); !room) return room.error();
     if (Status room = make_room(mesh.face_count()); !room) return room.error();
     Expected<MethodResult> result = std::visit([&](const auto& options) { return apply(options, mesh); }, request.options);
     if (!result) return result.error();
@@ -107,7 +108,8 @@ JobOutcome MethodJob::make(const MethodRequest& request, const TriangleMesh& mes
 /// For a method on so many faces, in place of the room there was.
 Status MethodJob::make_room(std::uint64_t faces) {
     room_.give_back();
-    Expected<MemoryBudget::Share> room = host_.memory.reserve(memory_to_simplify(faces), "a method on " + std::to_string(faces) + " faces");
+    Expected<MemoryBudget::Share> room =
+        host_.memory.reserve(memory_to_simplify(faces), "a method on " + std::to_string(faces) + " faces");
     if (!room) return room.error();
     room_ = *std::move(room);
     return Done{};

@@ -72,7 +72,7 @@ private:
     std::chrono::steady_clock::time_point until_;  // of the run
     ProgressGate gate_;
     ExecutionContext context_;
-    MemoryBudget::Share room_;        // while it runs
+    MemoryBudget::Share room_;    // while it runs
     std::uint32_t faces_in_ = 0;  // once they are known
     mutable std::mutex mutex_;
     std::optional<Error> why_stopped_;

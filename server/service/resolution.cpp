@@ -30,8 +30,7 @@ Status check_resume(const MultiresMesh& mrr, std::uint32_t resume_from) {
 
 Expected<SessionSnapshot::RepresentationPointer> find_requested(const SessionSnapshot& session,
                                                                 const ResolutionRequest& request) {
-    return request.representation.empty() ? newest_representation(session)
-                                          : find_representation(session, request.representation);
+    return request.representation.empty() ? newest_representation(session) : find_representation(session, request.representation);
 }
 
 Expected<ResolutionPlan> plan_resolution(SessionSnapshot::RepresentationPointer representation,

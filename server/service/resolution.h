@@ -20,9 +20,9 @@ struct ResolutionRequest {
 struct ResolutionPlan {
     SessionSnapshot::RepresentationPointer representation;
     std::shared_ptr<const Levels> levels;  ///< its own
-    std::size_t level = 0;         ///< where the client will stand
-    bool with_base = false;        ///< the base mesh comes first
-    std::size_t first_record = 0;  ///< then records [first_record, last_record)
+    std::size_t level = 0;                 ///< where the client will stand
+    bool with_base = false;                ///< the base mesh comes first
+    std::size_t first_record = 0;          ///< then records [first_record, last_record)
     std::size_t last_record = 0;
 };
 

@@ -76,6 +76,11 @@ Status Session::require_idle_locked() const {
                  "session"};
 }
 
+Status Session::require_room() const {
+    const std::lock_guard lock(mutex_);
+    return require_room_locked();
+}
+
 Status Session::require_room_locked() const {
     const std::uint32_t limit = host_.options.limits.representations;
     if (representations_.size() < limit) return Done{};
@@ -133,8 +138,8 @@ Expected<SessionSnapshot::RepresentationPointer> Session::add_representation(con
     const MrrExtent extent = extent_of(result.mrr);
     const std::uint64_t bytes = memory_of(result.mrr);
     auto levels = Kept<Levels>::hold(std::make_shared<const Levels>(std::move(result.mrr), host_.memory), bytes, host_.memory);
-    auto added = std::make_shared<const Representation>('r' + std::to_string(made), request, std::move(result), extent,
-                                                        std::move(levels));
+    auto added =
+        std::make_shared<const Representation>('r' + std::to_string(made), request, std::move(result), extent, std::move(levels));
     if (Status kept = host_.archive.add_representation(number_, *added, made); !kept) return kept.error();
     const std::lock_guard lock(mutex_);
     if (Status open = require_open_locked(); !open) return open.error();
@@ -149,7 +154,7 @@ void Session::answered(const MethodRequest& request) {
     {
         const std::lock_guard lock(mutex_);
         const auto kept = std::stable_partition(unfinished_.begin(), unfinished_.end(),
-                                         [&](const UnfinishedMethod& method) { return method.request != request; });
+                                                [&](const UnfinishedMethod& method) { return method.request != request; });
         for (auto method = kept; method != unfinished_.end(); ++method) jobs.push_back(method->job);
         unfinished_.erase(kept, unfinished_.end());
     }

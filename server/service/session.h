@@ -16,8 +16,8 @@
 
 namespace vsplit::service {
 
-/// A mesh, the representations made from it, and the jobs that make them. Thread-safe; no call takes long but those that wait for the
-/// archive. Nothing is seen of a change before the archive has it.
+/// A mesh, the representations made from it, and the jobs that make them. Thread-safe; no call takes long but those that wait for
+/// the archive. Nothing is seen of a change before the archive has it.
 class Session {
 public:
     using Clock = std::chrono::steady_clock;
@@ -50,6 +50,9 @@ public:
     /// The same for a mesh that was made from `before`. \return also BUSY where that is no longer the session's.
     [[nodiscard]] Status replace_source(const std::shared_ptr<const SourceMesh>& before,
                                         std::shared_ptr<const SourceMesh> source);
+
+    /// Whether there may be one more representation. \return LIMIT_EXCEEDED.
+    [[nodiscard]] Status require_room() const;
 
     /// What was made for the same request before, if it was. O(representations).
     [[nodiscard]] SessionSnapshot::RepresentationPointer find_made(const MethodRequest& request) const;

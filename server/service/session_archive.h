@@ -23,9 +23,9 @@ struct UnfinishedMethod {
 /// A session as an archive keeps it.
 struct SessionRecord {
     std::uint64_t number = 0;  ///< orders sessions by creation; not used twice
-    std::string id;
-    std::string owner;
-    std::chrono::system_clock::time_point create_time;
+    std::string id{};
+    std::string owner{};
+    std::chrono::system_clock::time_point create_time{};
     std::chrono::milliseconds expires{};  ///< in service time, see SessionArchive
     std::uint64_t made = 0;               ///< representations ever
     std::shared_ptr<const SourceMesh> source{};
@@ -62,10 +62,10 @@ public:
     SessionArchive(const SessionArchive&) = delete;
     SessionArchive& operator=(const SessionArchive&) = delete;
 
-    /// All sessions; called once, first. `budget` outlives what is returned. \return FILE_ACCESS.
+    /// All sessions; called once, first. `budget` outlives what is returned. \return what `disk_error` returns.
     [[nodiscard]] virtual Expected<Restored> restore(MemoryBudget& /*budget*/) { return Restored{}; }
 
-    /// Keeps a new session and its source, if it has one. \return FILE_ACCESS, LIMIT_EXCEEDED.
+    /// Keeps a new session and its source, if it has one. \return what `disk_error` returns.
     [[nodiscard]] virtual Status add(const SessionRecord& /*session*/) { return Done{}; }
 
     /// Replaces a session's source and drops its representations and unfinished methods. \return as `add`; NOT_FOUND.
@@ -77,21 +77,21 @@ public:
         return Done{};
     }
 
-    /// Forgets sessions and all that is theirs. Those that are not there are none. \return FILE_ACCESS.
+    /// Forgets sessions and all that is theirs. Those that are not there are none. \return what `disk_error` returns.
     [[nodiscard]] virtual Status remove(const std::vector<std::uint64_t>& /*sessions*/) { return Done{}; }
 
-    /// What time it is, and when the sessions of these numbers expire. \return FILE_ACCESS.
+    /// What time it is, and when the sessions of these numbers expire. \return what `disk_error` returns.
     [[nodiscard]] virtual Status note_time(std::chrono::milliseconds /*now*/,
                                            const std::vector<std::pair<std::uint64_t, std::chrono::milliseconds>>& /*expire*/) {
         return Done{};
     }
 
-    /// A method begins. \return its number; FILE_ACCESS, NOT_FOUND.
+    /// A method begins. \return its number; NOT_FOUND, what `disk_error` returns.
     [[nodiscard]] virtual Expected<std::uint64_t> add_job(std::uint64_t /*session*/, const MethodRequest& /*request*/) {
         return std::uint64_t{0};
     }
 
-    /// Methods that have ended. \return FILE_ACCESS.
+    /// Methods that have ended. \return what `disk_error` returns.
     [[nodiscard]] virtual Status remove_jobs(const std::vector<std::uint64_t>& /*jobs*/) { return Done{}; }
 
     /// O(1).

@@ -73,10 +73,10 @@ Status SessionStore::require_room_locked(std::string_view owner) const {
             "", kRetryAfter};
     }
     if (count_ < limits.sessions) return Done{};
-    return Error{Cause::kLimitExceeded,
-                 "the server holds " + std::to_string(count_) +
-                     " sessions, its limit max_sessions; delete one, or wait until one expires",
-                 "", kRetryAfter};
+    return Error{
+        Cause::kLimitExceeded,
+        "the server holds " + std::to_string(count_) + " sessions, its limit max_sessions; delete one, or wait until one expires",
+        "", kRetryAfter};
 }
 
 std::chrono::milliseconds SessionStore::service_time(Session::Clock::time_point time) const {

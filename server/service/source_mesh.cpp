@@ -1,6 +1,7 @@
 #include "service/source_mesh.h"
 
 #include <utility>
+#include <vector>
 
 #include "service/guarded.h"
 #include "service/memory_use.h"
@@ -25,9 +26,17 @@ std::shared_ptr<const SourceMesh> make_source(TriangleMesh mesh, MeshReport repo
 Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byte> bytes, const MeshSettings& settings,
                                                         const Limits& limits, MemoryBudget& budget) {
     return guarded([&]() -> Expected<std::shared_ptr<const SourceMesh>> {
-        const Expected<MemoryBudget::Share> room = budget.reserve(memory_to_read(unpacked_size(bytes)), "reading this mesh");
+        const Expected<MemoryBudget::Share> room =
+            budget.reserve(memory_to_read(bytes, settings.repair.has_value()), "reading this mesh");
         if (!room) return room.error();
-        Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces, settings.unit});
+        std::vector<MemoryBudget::Share> more;
+        const auto make_room = [&](std::uint64_t faces) -> Status {
+            Expected<MemoryBudget::Share> share = budget.reserve(memory_to_read(faces, settings.repair.has_value()), "reading this mesh");
+            if (!share) return share.error();
+            more.push_back(*std::move(share));
+            return Done{};
+        };
+        Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces, settings.unit, make_room});
         if (!read) return read.error();
         Expected<MeshReport> report = inspect_source(read->mesh, read->weld, settings.repair);
         if (!report) return report.error();

@@ -26,8 +26,8 @@ struct MeshSettings {
 /// Whether `settings` can be obeyed, before any byte is there. \return INVALID_OPTION. O(1).
 [[nodiscard]] Status check_settings(const MeshSettings& settings);
 
-/// What a session's methods begin with: a mesh that could be read, open and non-manifold ones included. Never changes; the mesh is
-/// in memory while there is room.
+/// What a session's methods begin with: a mesh that could be read, open and non-manifold ones included. Never changes; the mesh
+/// is in memory while there is room.
 struct SourceMesh {
     std::shared_ptr<Kept<TriangleMesh>> mesh;
     MeshReport report;

@@ -11,12 +11,10 @@
 #include <system_error>
 #include <utility>
 
+#include "service/disk_error.h"
+
 namespace vsplit::service {
 namespace {
-
-Error file_error(const char* what) {
-    return {Cause::kFileAccess, std::string(what) + ": " + std::generic_category().message(errno), ""};
-}
 
 std::filesystem::path usual_directory() {
     std::error_code failed;
@@ -51,7 +49,7 @@ Expected<TempFile> TempFile::create(const std::filesystem::path& wanted) {
     const std::filesystem::path directory = wanted.empty() ? usual_directory() : wanted;
     int descriptor = open(directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (descriptor < 0) descriptor = create_and_unlink(directory);
-    if (descriptor < 0) return file_error("cannot make a temporary file");
+    if (descriptor < 0) return disk_error("cannot make a temporary file");
     return TempFile(descriptor);
 }
 
@@ -71,7 +69,7 @@ Status TempFile::append(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = write(descriptor_, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return file_error("cannot write to a temporary file");
+        if (written < 0) return disk_error("cannot write to a temporary file");
         bytes = bytes.subspan(static_cast<std::size_t>(written));
         size_ += static_cast<std::uint64_t>(written);
     }
@@ -81,7 +79,7 @@ Status TempFile::append(std::span<const std::byte> bytes) {
 Expected<FileMapping> TempFile::map() const {
     if (size_ == 0) return FileMapping();
     void* const address = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, descriptor_, 0);
-    if (address == MAP_FAILED) return file_error("cannot map a temporary file");
+    if (address == MAP_FAILED) return disk_error("cannot map a temporary file");
     return FileMapping(address, size_);
 }
 

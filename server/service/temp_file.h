@@ -28,19 +28,19 @@ private:
 /// A file without a name: it is gone with the process, however that ends.
 class TempFile {
 public:
-    /// In `directory`; where that is empty, in $TMPDIR or /tmp. \return FILE_ACCESS.
+    /// In `directory`; where that is empty, in $TMPDIR or /tmp. \return what `disk_error` returns.
     [[nodiscard]] static Expected<TempFile> create(const std::filesystem::path& directory = {});
 
     ~TempFile();
     TempFile(TempFile&& other) noexcept;
     TempFile& operator=(TempFile&& other) noexcept;
 
-    /// \return FILE_ACCESS, e.g. when the disk is full.
+    /// \return what `disk_error` returns.
     [[nodiscard]] Status append(std::span<const std::byte> bytes);
 
     [[nodiscard]] std::uint64_t size() const { return size_; }
 
-    /// The mapping outlives the TempFile if need be. \return FILE_ACCESS.
+    /// The mapping outlives the TempFile if need be. \return what `disk_error` returns.
     [[nodiscard]] Expected<FileMapping> map() const;
 
 private:

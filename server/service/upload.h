@@ -23,12 +23,13 @@ struct UploadSettings {
 /// succeeds and by nothing else; of two uploads at once the one that commits last stays. Not thread-safe.
 class Upload {
 public:
-    /// \return LIMIT_EXCEEDED for a declared size over the limit, INVALID_OPTION (weld), BUSY, NOT_FOUND, FILE_ACCESS.
+    /// \return LIMIT_EXCEEDED for a declared size over the limit, INVALID_OPTION (weld), BUSY, NOT_FOUND, what `disk_error`
+    /// returns.
     [[nodiscard]] static Expected<Upload> begin(std::shared_ptr<Session> session, const UploadSettings& settings,
                                                 const ServiceOptions& options, MemoryBudget& memory);
 
     /// Takes the next bytes; writes to the disk. \return OUT_OF_ORDER when `offset` is not the number of bytes taken so far;
-    /// LIMIT_EXCEEDED; MALFORMED_INPUT for more than the declared size; FILE_ACCESS.
+    /// LIMIT_EXCEEDED; MALFORMED_INPUT for more than the declared size; what `disk_error` returns.
     [[nodiscard]] Status append(std::uint64_t offset, std::span<const std::byte> bytes);
 
     /// Reads the mesh and puts it into the session, provided that `still_wanted()` when it has been read. Heavy.

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "store/disk_error.h"
+#include "service/disk_error.h"
 #include "store/file_blob_store.h"
 #include "store/sqlite_session_index.h"
 
@@ -25,20 +25,21 @@ Status make_directories(const fs::path& directory) {
     fs::create_directories(directory, failed);
     if (!failed) fs::permissions(directory, fs::perms::owner_all, failed);
     if (!failed) fs::create_directories(directory / "uploads", failed);
-    if (failed) return disk_error("cannot make " + directory.string(), failed.value());
+    if (failed) return service::disk_error("cannot make " + directory.string(), failed.value());
     return Done{};
 }
 
 /// The descriptor that holds the lock; the system lets go of it with the process, however that ends.
-Expected<int> lock(const fs::path& directory) {
-    const int descriptor = ::open((directory / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    if (descriptor < 0) return disk_error("cannot open " + (directory / "lock").string());
+Expected<int> lock(const fs::path& directory, bool writable) {
+    const int access = writable ? O_RDWR | O_CREAT : O_RDONLY;
+    const int descriptor = ::open((directory / "lock").c_str(), access | O_CLOEXEC, 0600);
+    if (descriptor < 0) return service::disk_error("cannot open " + (directory / "lock").string());
     if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
     const int number = errno;
     close(descriptor);
-    if (number != EWOULDBLOCK) return disk_error("cannot lock " + directory.string(), number);
-    return Error{Cause::kInvalidOption, directory.string() + " is the data directory of another vsplitd that runs; use another one",
-                 "data_dir"};
+    if (number != EWOULDBLOCK) return service::disk_error("cannot lock " + directory.string(), number);
+    return Error{Cause::kInvalidOption,
+                 directory.string() + " is the data directory of another vsplitd that runs; use another one", "data_dir"};
 }
 
 /// Puts what cannot be read out of the way, as it is. Returns where.
@@ -49,34 +50,39 @@ Expected<fs::path> put_aside(const fs::path& directory) {
         aside = directory / ("damaged-" + std::to_string(number));
     }
     fs::create_directory(aside, failed);
-    for (const std::string& name : {std::string(kIndex), std::string(kIndex) + "-wal", std::string(kIndex) + "-shm", std::string(kBlobs)}) {
+    for (const std::string& name :
+         {std::string(kIndex), std::string(kIndex) + "-wal", std::string(kIndex) + "-shm", std::string(kBlobs)}) {
         if (!failed && fs::exists(directory / name)) fs::rename(directory / name, aside / name, failed);
     }
-    if (failed) return disk_error("cannot put its damaged index aside in " + aside.string(), failed.value());
+    if (failed) return service::disk_error("cannot put its damaged index aside in " + aside.string(), failed.value());
     return aside;
 }
 
 }  // namespace
 
 Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, Report report) {
-    if (Status made = make_directories(directory); !made) return made.error();
-    const Expected<int> descriptor = lock(directory);
+    const bool writable = !fs::exists(directory / kIndex) || access(directory.c_str(), W_OK) == 0;
+    if (!writable)
+        report(service::disk_error("the data directory " + directory.string() + " is served, and nothing new is kept in it")
+                   .message);
+    if (Status made = writable ? make_directories(directory) : Status(Done{}); !made) return made.error();
+    const Expected<int> descriptor = lock(directory, writable);
     if (!descriptor) return descriptor.error();
-    DataDir opened(directory, *descriptor);
+    DataDir opened(directory, *descriptor, writable);
     if (Status ready = opened.open_archive(quota, report); !ready) return ready.error();
     return opened;
 }
 
 Status DataDir::open_archive(std::uint64_t quota, const Report& report) {
-    Expected<std::unique_ptr<SqliteSessionIndex>> index = SqliteSessionIndex::open(directory_ / kIndex);
-    if (!index && index.error().cause == Cause::kCorrupt) {
+    Expected<std::unique_ptr<SqliteSessionIndex>> index = SqliteSessionIndex::open(directory_ / kIndex, writable_);
+    if (!index && writable_ && index.error().cause == Cause::kCorrupt) {
         const Expected<fs::path> aside = put_aside(directory_);
         if (!aside) return aside.error();
         report(index.error().message + "; put aside untouched in " + aside->string() + ", and begun anew without its sessions");
         index = SqliteSessionIndex::open(directory_ / kIndex);
     }
     if (!index) return index.error();
-    Expected<std::unique_ptr<FileBlobStore>> blobs = FileBlobStore::open(directory_ / kBlobs, quota);
+    Expected<std::unique_ptr<FileBlobStore>> blobs = FileBlobStore::open(directory_ / kBlobs, quota, writable_);
     if (!blobs) return blobs.error();
     archive_ = std::make_unique<StoredSessions>(*std::move(blobs), *std::move(index), quota, report);
     return Done{};
@@ -87,6 +93,9 @@ DataDir::~DataDir() {
 }
 
 DataDir::DataDir(DataDir&& other) noexcept
-    : directory_(std::move(other.directory_)), lock_(std::exchange(other.lock_, -1)), archive_(std::move(other.archive_)) {}
+    : directory_(std::move(other.directory_)),
+      lock_(std::exchange(other.lock_, -1)),
+      writable_(other.writable_),
+      archive_(std::move(other.archive_)) {}
 
 }  // namespace vsplit::store

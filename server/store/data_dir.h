@@ -18,7 +18,8 @@ namespace vsplit::store {
 ///     damaged-1/ ...  an index that could not be read and its blobs, put there untouched
 class DataDir {
 public:
-    /// Makes the directory if need be. No other server may have it.
+    /// Makes the directory if need be. No other server may have it. One that may not be written to is served all the same, and
+    /// reported: whatever would change it is refused.
     /// \param quota bytes of disk that meshes and representations may take; 0: no limit.
     /// \return UNAVAILABLE, LIMIT_EXCEEDED, UNSUPPORTED (made by a later version), INVALID_OPTION (no directory).
     [[nodiscard]] static Expected<DataDir> open(const std::filesystem::path& directory, std::uint64_t quota, Report report);
@@ -34,12 +35,14 @@ public:
     [[nodiscard]] std::unique_ptr<service::SessionArchive> take_archive() { return std::move(archive_); }
 
 private:
-    DataDir(std::filesystem::path directory, int lock) : directory_(std::move(directory)), lock_(lock) {}
+    DataDir(std::filesystem::path directory, int lock, bool writable)
+        : directory_(std::move(directory)), lock_(lock), writable_(writable) {}
 
     [[nodiscard]] Status open_archive(std::uint64_t quota, const Report& report);
 
     std::filesystem::path directory_;
     int lock_ = -1;
+    bool writable_ = true;
     std::unique_ptr<service::SessionArchive> archive_;
 };
 

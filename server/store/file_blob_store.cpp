@@ -9,9 +9,9 @@
 #include <system_error>
 #include <utility>
 
+#include "guard/digest.h"
+#include "service/disk_error.h"
 #include "service/limits.h"
-#include "store/disk_error.h"
-#include "store/sha256.h"
 
 namespace vsplit::store {
 namespace {
@@ -47,6 +47,8 @@ private:
     std::size_t size_;
 };
 
+std::string key_of(std::span<const Bytes> parts) { return guard::hex_digits(guard::digest_of(parts)); }
+
 std::uint64_t size_of(std::span<const Bytes> parts) {
     std::uint64_t size = 0;
     for (const Bytes part : parts) size += part.size();
@@ -75,24 +77,25 @@ bool is_key(const std::string& name) {
 
 Expected<std::shared_ptr<const Blob>> map_file(const fs::path& place) {
     const Descriptor file(place, O_RDONLY);
-    if (!file.open() && errno == ENOENT) return Error{Cause::kCorrupt, "the data directory: " + place.filename().string() + " is missing", ""};
+    if (!file.open() && errno == ENOENT)
+        return Error{Cause::kCorrupt, "the data directory: " + place.filename().string() + " is missing", ""};
     struct stat about {};
-    if (!file.open() || fstat(file.number(), &about) != 0) return disk_error("cannot open " + place.string());
+    if (!file.open() || fstat(file.number(), &about) != 0) return service::disk_error("cannot open a stored mesh");
     const auto size = static_cast<std::size_t>(about.st_size);
     if (size == 0) return std::shared_ptr<const Blob>(std::make_shared<MappedBlob>(nullptr, 0));
     void* const address = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number(), 0);
-    if (address == MAP_FAILED) return disk_error("cannot map " + place.string());
+    if (address == MAP_FAILED) return service::disk_error("cannot map a stored mesh");
     return std::shared_ptr<const Blob>(std::make_shared<MappedBlob>(address, size));
 }
 
 }  // namespace
 
-Expected<std::unique_ptr<FileBlobStore>> FileBlobStore::open(fs::path directory, std::uint64_t quota) {
+Expected<std::unique_ptr<FileBlobStore>> FileBlobStore::open(fs::path directory, std::uint64_t quota, bool writable) {
     std::unique_ptr<FileBlobStore> store(new FileBlobStore(std::move(directory), quota));
     std::error_code failed;
-    fs::remove_all(store->incoming_, failed);
-    if (!failed) fs::create_directories(store->incoming_, failed);
-    if (failed) return disk_error("cannot make " + store->incoming_.string(), failed.value());
+    if (writable) fs::remove_all(store->incoming_, failed);
+    if (writable && !failed) fs::create_directories(store->incoming_, failed);
+    if (failed) return service::disk_error("cannot make " + store->incoming_.string(), failed.value());
     const Expected<std::vector<BlobEntry>> all = store->list();
     if (!all) return all.error();
     for (const BlobEntry& blob : *all) store->bytes_ += blob.bytes;
@@ -124,7 +127,7 @@ void FileBlobStore::give_back(std::uint64_t bytes) {
 }
 
 Expected<BlobEntry> FileBlobStore::put(std::span<const Bytes> parts) {
-    BlobEntry blob{sha256(parts), size_of(parts)};
+    BlobEntry blob{key_of(parts), size_of(parts)};
     const fs::path place = place_of(blob.key);
     struct stat about {};
     if (stat(place.c_str(), &about) == 0) {
@@ -141,27 +144,27 @@ Expected<BlobEntry> FileBlobStore::put(std::span<const Bytes> parts) {
 
 Status FileBlobStore::write(const fs::path& place, std::span<const Bytes> parts) {
     const fs::path incoming = incoming_ / std::to_string(++written_);
-    const auto fail = [&incoming](const std::string& what) {
+    const auto fail = [&incoming] {
         const int number = errno;
         unlink(incoming.c_str());
-        return disk_error(what, number);
+        return service::disk_error("cannot keep a mesh in the data directory", number);
     };
     {
         const Descriptor file(incoming, O_WRONLY | O_CREAT | O_TRUNC);
-        if (!file.open()) return fail("cannot make " + incoming.string());
+        if (!file.open()) return fail();
         for (const Bytes part : parts) {
-            if (!write_all(file.number(), part)) return fail("cannot write " + incoming.string());
+            if (!write_all(file.number(), part)) return fail();
         }
-        if (fsync(file.number()) != 0) return fail("cannot write " + incoming.string());
+        if (fsync(file.number()) != 0) return fail();
     }
     const fs::path directory = place.parent_path();
     if (mkdir(directory.c_str(), 0700) == 0) {
-        if (!sync_directory(directory_)) return fail("cannot write " + directory_.string());
+        if (!sync_directory(directory_)) return fail();
     } else if (errno != EEXIST) {
-        return fail("cannot make " + directory.string());
+        return fail();
     }
-    if (rename(incoming.c_str(), place.c_str()) != 0) return fail("cannot rename " + incoming.string());
-    if (!sync_directory(directory)) return fail("cannot write " + directory.string());
+    if (rename(incoming.c_str(), place.c_str()) != 0) return fail();
+    if (!sync_directory(directory)) return fail();
     return Done{};
 }
 
@@ -169,7 +172,7 @@ Expected<std::shared_ptr<const Blob>> FileBlobStore::get(const std::string& key)
     Expected<std::shared_ptr<const Blob>> blob = map_file(place_of(key));
     if (!blob) return blob;
     const Bytes bytes = (*blob)->bytes();
-    if (sha256({&bytes, 1}) == key) return blob;
+    if (key_of({&bytes, 1}) == key) return blob;
     return Error{Cause::kCorrupt, "the data directory: " + key + " does not hold the bytes that were kept under this name", ""};
 }
 
@@ -177,7 +180,7 @@ Status FileBlobStore::remove(const std::string& key) {
     const fs::path place = place_of(key);
     struct stat about {};
     if (stat(place.c_str(), &about) != 0 && errno == ENOENT) return Done{};
-    if (unlink(place.c_str()) != 0) return disk_error("cannot remove " + place.string());
+    if (unlink(place.c_str()) != 0) return service::disk_error("cannot remove a stored mesh");
     give_back(static_cast<std::uint64_t>(about.st_size));
     return Done{};
 }
@@ -190,7 +193,7 @@ Expected<std::vector<BlobEntry>> FileBlobStore::list() const {
         std::error_code unknown;
         if (is_key(name) && at->is_regular_file(unknown)) blobs.push_back({name, at->file_size(unknown)});
     }
-    if (failed) return disk_error("cannot read " + directory_.string(), failed.value());
+    if (failed) return service::disk_error("cannot read " + directory_.string(), failed.value());
     std::sort(blobs.begin(), blobs.end(), [](const BlobEntry& a, const BlobEntry& b) { return a.key < b.key; });
     return blobs;
 }

@@ -13,9 +13,11 @@ namespace vsplit::store {
 /// directory has nobody else's files.
 class FileBlobStore final : public BlobStore {
 public:
-    /// Makes the directory if need be, and removes what was being written when a server ended.
+    /// Makes the directory if need be, and removes what was being written when a server ended; one that is not `writable` is left
+    /// as it is, and whatever would write fails.
     /// \param quota bytes that all blobs may take together; 0: no limit. \return UNAVAILABLE, LIMIT_EXCEEDED.
-    [[nodiscard]] static Expected<std::unique_ptr<FileBlobStore>> open(std::filesystem::path directory, std::uint64_t quota);
+    [[nodiscard]] static Expected<std::unique_ptr<FileBlobStore>> open(std::filesystem::path directory, std::uint64_t quota,
+                                                                       bool writable = true);
 
     [[nodiscard]] Expected<BlobEntry> put(std::span<const Bytes> parts) override;
     [[nodiscard]] Expected<std::shared_ptr<const Blob>> get(const std::string& key) const override;

@@ -37,7 +37,8 @@ Expected<TriangleMesh> read_mesh_blob(Bytes bytes) {
     std::memcpy(header.data(), bytes.data(), kHeaderBytes);
     bytes = bytes.subspan(kHeaderBytes);
     const auto [low, high, vertices, faces, regions, zero] = header;
-    if (low != kMagicLow || high != kMagicHigh || zero != 0 || (regions != 0 && regions != faces)) return corrupt("not its header");
+    if (low != kMagicLow || high != kMagicHigh || zero != 0 || (regions != 0 && regions != faces))
+        return corrupt("not its header");
     const std::uint64_t expected = std::uint64_t{24} * vertices + std::uint64_t{12} * faces + std::uint64_t{4} * regions;
     if (bytes.size() != expected) {
         return corrupt(std::to_string(bytes.size()) + " bytes of arrays, expected are " + std::to_string(expected));

@@ -4,11 +4,32 @@
 
 namespace vsplit::store {
 
-Expected<Database> Database::open(const std::filesystem::path& file) {
+namespace {
+
+// A database that nobody writes to, with no log beside it, can be read where not even locks can be written.
+std::string address_of(const std::filesystem::path& file, bool writable) {
+    std::filesystem::path log = file;
+    log += "-wal";
+    if (writable || std::filesystem::exists(log)) return file.string();
+    std::string address = "file:";
+    for (const char c : file.string()) {
+        constexpr std::string_view kSpecial = "%?#";
+        if (kSpecial.find(c) == std::string_view::npos) {
+            address += c;
+        } else {
+            address += c == '%' ? "%25" : c == '?' ? "%3f" : "%23";
+        }
+    }
+    return address + "?immutable=1";
+}
+
+}  // namespace
+
+Expected<Database> Database::open(const std::filesystem::path& file, bool writable) {
     sqlite3* handle = nullptr;
     // One connection, guarded by its owner.
-    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
-    const int result = sqlite3_open_v2(file.c_str(), &handle, flags, nullptr);
+    const int access = writable ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
+    const int result = sqlite3_open_v2(address_of(file, writable).c_str(), &handle, access | SQLITE_OPEN_NOMUTEX, nullptr);
     Database database(handle);
     if (handle == nullptr) return Error{Cause::kLimitExceeded, "no memory to open " + file.string(), ""};
     if (result != SQLITE_OK) return database.error();

@@ -17,8 +17,8 @@ class Statement;
 /// A connection to an SQLite database. Not thread-safe.
 class Database {
 public:
-    /// \return CORRUPT for a file that is no database, UNAVAILABLE.
-    [[nodiscard]] static Expected<Database> open(const std::filesystem::path& file);
+    /// Made if need be, unless it is to be read only. \return CORRUPT for a file that is no database, UNAVAILABLE.
+    [[nodiscard]] static Expected<Database> open(const std::filesystem::path& file, bool writable = true);
 
     /// \return as `error`.
     [[nodiscard]] Status run(const char* sql);

@@ -52,16 +52,17 @@ Status check(Database& database) {
 
 }  // namespace
 
-Expected<std::unique_ptr<SqliteSessionIndex>> SqliteSessionIndex::open(const std::filesystem::path& file) {
-    Expected<Database> database = Database::open(file);
+Expected<std::unique_ptr<SqliteSessionIndex>> SqliteSessionIndex::open(const std::filesystem::path& file, bool writable) {
+    Expected<Database> database = Database::open(file, writable);
     if (!database) return database.error();
     std::unique_ptr<SqliteSessionIndex> index(new SqliteSessionIndex(*std::move(database)));
-    if (Status ready = index->prepare_schema(); !ready) return ready.error();
+    if (Status ready = index->prepare_schema(writable); !ready) return ready.error();
     return index;
 }
 
-Status SqliteSessionIndex::prepare_schema() {
-    for (const char* setting : {"PRAGMA journal_mode = WAL", "PRAGMA synchronous = FULL", "PRAGMA foreign_keys = ON"}) {
+Status SqliteSessionIndex::prepare_schema(bool writable) {
+    for (const char* setting : {"PRAGMA synchronous = FULL", "PRAGMA foreign_keys = ON", "PRAGMA journal_mode = WAL"}) {
+        if (!writable) break;
         if (Status set = database_.run(setting); !set) return set;
     }
     if (Status sound = check(database_); !sound) return sound;
@@ -70,8 +71,8 @@ Status SqliteSessionIndex::prepare_schema() {
     if (*version == kVersion) return Done{};
     if (*version > kVersion) {
         return Error{Cause::kUnsupported,
-                     "the data directory's index has version " + std::to_string(*version) + "; this vsplitd knows versions up to " +
-                         std::to_string(kVersion) + ", and a later one is needed",
+                     "the data directory's index has version " + std::to_string(*version) +
+                         "; this vsplitd knows versions up to " + std::to_string(kVersion) + ", and a later one is needed",
                      "data_dir"};
     }
     Transaction transaction(database_);
@@ -99,8 +100,13 @@ Status SqliteSessionIndex::load_sessions(IndexContents& contents) {
         const Expected<bool> row = rows.step();
         if (!row) return row.error();
         if (!*row) return Done{};
-        contents.sessions.push_back({static_cast<std::uint64_t>(rows.number(0)), rows.bytes(1), rows.bytes(2), rows.number(3),
-                                     rows.number(4), static_cast<std::uint64_t>(rows.number(5)), {rows.bytes(6), rows.bytes(7)}});
+        contents.sessions.push_back({static_cast<std::uint64_t>(rows.number(0)),
+                                     rows.bytes(1),
+                                     rows.bytes(2),
+                                     rows.number(3),
+                                     rows.number(4),
+                                     static_cast<std::uint64_t>(rows.number(5)),
+                                     {rows.bytes(6), rows.bytes(7)}});
     }
 }
 

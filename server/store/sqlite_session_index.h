@@ -12,17 +12,17 @@ namespace vsplit::store {
 /// The index as an SQLite database with a write-ahead log, synchronised at each commit.
 class SqliteSessionIndex final : public SessionIndex {
 public:
-    /// Makes the database if need be.
+    /// Makes the database if need be; one that is not `writable` is left as it is, and whatever would write fails.
     /// \return CORRUPT for one that is damaged, UNSUPPORTED for one of a later version, UNAVAILABLE, LIMIT_EXCEEDED.
-    [[nodiscard]] static Expected<std::unique_ptr<SqliteSessionIndex>> open(const std::filesystem::path& file);
+    [[nodiscard]] static Expected<std::unique_ptr<SqliteSessionIndex>> open(const std::filesystem::path& file,
+                                                                            bool writable = true);
 
     [[nodiscard]] Expected<IndexContents> load() override;
     [[nodiscard]] Status add_session(const SessionRow& session) override;
     [[nodiscard]] Status set_source(std::uint64_t session, const StoredItem& source) override;
     [[nodiscard]] Status add_representation(const RepresentationRow& representation, std::uint64_t made) override;
     [[nodiscard]] Status remove_sessions(const std::vector<std::uint64_t>& sessions) override;
-    [[nodiscard]] Status note_time(std::int64_t now,
-                                   const std::vector<std::pair<std::uint64_t, std::int64_t>>& expire) override;
+    [[nodiscard]] Status note_time(std::int64_t now, const std::vector<std::pair<std::uint64_t, std::int64_t>>& expire) override;
     [[nodiscard]] Expected<std::uint64_t> add_job(std::uint64_t session, const std::string& info) override;
     [[nodiscard]] Status remove_jobs(const std::vector<std::uint64_t>& jobs) override;
     [[nodiscard]] Status set_aside(std::uint64_t session, const std::string& why) override;
@@ -33,7 +33,7 @@ public:
 private:
     explicit SqliteSessionIndex(Database database) : database_(std::move(database)) {}
 
-    [[nodiscard]] Status prepare_schema();
+    [[nodiscard]] Status prepare_schema(bool writable);
     [[nodiscard]] Status load_sessions(IndexContents& contents);
     [[nodiscard]] Status load_representations(IndexContents& contents);
     [[nodiscard]] Status load_jobs(IndexContents& contents);

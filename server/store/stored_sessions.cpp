@@ -109,7 +109,7 @@ Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
         const auto why = damage.find(row.number);
         if (why == damage.end()) continue;
         records.erase(row.number);
-        if (Status done = set_aside(row.number, row.id, why->second); !done) return done.error();
+        set_aside(row.number, row.id, why->second);
     }
     collect(keys_of(*blobs));
     service::Restored restored{{}, milliseconds(contents->now)};
@@ -146,10 +146,11 @@ Expected<std::shared_ptr<const service::Representation>> StoredSessions::recall(
                                                            Kept<Levels>::elsewhere(std::move(load), told->memory, budget));
 }
 
-Status StoredSessions::set_aside(std::uint64_t session, const std::string& id, const Error& why) {
+/// Where the index cannot be told it is found again, and reported again, when the server next starts.
+void StoredSessions::set_aside(std::uint64_t session, const std::string& id, const Error& why) {
     (*report_)("session " + id + " is damaged and set aside: " + why.message);
     ++aside_;
-    return index_->set_aside(session, why.message);
+    static_cast<void>(index_->set_aside(session, why.message));
 }
 
 Expected<StoredItem> StoredSessions::keep_source(const service::SourceMesh& source) {
@@ -174,7 +175,7 @@ Expected<StoredItem> StoredSessions::keep_levels(const service::Representation& 
 Status StoredSessions::add(const service::SessionRecord& session) {
     const std::shared_lock lock(collecting_);
     SessionRow row{session.number, session.id, session.owner, since_1970(session.create_time), session.expires.count(),
-                   session.made, {}};
+                   session.made,   {}};
     if (session.source) {
         Expected<StoredItem> item = keep_source(*session.source);
         if (!item) return item.error();

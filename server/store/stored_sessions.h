@@ -31,9 +31,8 @@ public:
     [[nodiscard]] Status add_representation(std::uint64_t session, const service::Representation& representation,
                                             std::uint64_t made) override;
     [[nodiscard]] Status remove(const std::vector<std::uint64_t>& sessions) override;
-    [[nodiscard]] Status note_time(
-        std::chrono::milliseconds now,
-        const std::vector<std::pair<std::uint64_t, std::chrono::milliseconds>>& expire) override;
+    [[nodiscard]] Status note_time(std::chrono::milliseconds now,
+                                   const std::vector<std::pair<std::uint64_t, std::chrono::milliseconds>>& expire) override;
     [[nodiscard]] Expected<std::uint64_t> add_job(std::uint64_t session, const service::MethodRequest& request) override;
     [[nodiscard]] Status remove_jobs(const std::vector<std::uint64_t>& jobs) override;
     [[nodiscard]] service::ArchiveUse use() const override;
@@ -48,7 +47,7 @@ private:
     [[nodiscard]] Expected<std::shared_ptr<const service::Representation>> recall(const RepresentationRow& row,
                                                                                   const Blobs& blobs,
                                                                                   service::MemoryBudget& budget) const;
-    [[nodiscard]] Status set_aside(std::uint64_t session, const std::string& id, const Error& why);
+    void set_aside(std::uint64_t session, const std::string& id, const Error& why);
     void can_be_loaded(const service::SourceMesh& source, const std::string& blob) const;
     void collect(const std::vector<std::string>& candidates);
 

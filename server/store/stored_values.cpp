@@ -110,12 +110,13 @@ Expected<ToldRepresentation> read_representation(const std::string& text) {
     Expected<MethodFigures> figures = wire::figures_of(description);
     if (!figures) return figures.error();
     const v1::RecordCounts& records = description.records();
-    return ToldRepresentation{description.id(),
-                              *std::move(asked),
-                              *std::move(figures),
-                              {description.faces_min(), description.faces_max(), records.splits(), records.flips(), records.moves()},
-                              proto->memory(),
-                              proto->blob_bytes()};
+    return ToldRepresentation{
+        description.id(),
+        *std::move(asked),
+        *std::move(figures),
+        {description.faces_min(), description.faces_max(), records.splits(), records.flips(), records.moves()},
+        proto->memory(),
+        proto->blob_bytes()};
 }
 
 }  // namespace vsplit::store

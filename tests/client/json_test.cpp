@@ -41,13 +41,56 @@ TEST(JsonTest, ReadsBackWhatItWrote) {
 
 TEST(JsonTest, RefusesWhatIsNoJsonOfTheMessage) {
     v1::Representation message;
-    for (const char* text : {"", "{", "[]", "{\"faces\": -1}", "{\"faces\": \"many\"}", "{\"noSuchField\": 1}", "\xff"}) {
+    for (const char* text : {"", "{", "[]", "7", "\xff", "{\"faces\": 1e999}"}) {
         const Status read = from_json(text, message);
         ASSERT_FALSE(read) << text;
         EXPECT_EQ(read.error().cause, Cause::kMalformedInput);
         EXPECT_NE(read.error().message.find("Representation"), std::string::npos);
     }
     EXPECT_TRUE(from_json("{\"noSuchField\": 1}", message, UnknownFields::kIgnored));
+}
+
+Error refusal_of(const std::string& text) {
+    v1::ImproveRequest message;
+    const Status read = from_json(text, message);
+    EXPECT_FALSE(read) << text;
+    return read ? Error{} : read.error();
+}
+
+TEST(JsonTest, NamesTheFieldThatDoesNotTakeItsValue) {
+    const auto expect = [](const std::string& text, const std::string& field, const std::string& message) {
+        const Error error = refusal_of(text);
+        EXPECT_EQ(error.cause, Cause::kInvalidOption) << text;
+        EXPECT_EQ(error.field, field) << text;
+        EXPECT_EQ(error.message, field + " is " + message);
+    };
+    const std::string whole = "; accepted is a whole number from 0 to 4294967295";
+    for (const std::string value : {"1.5", "-5", "1e+30", "\"abc\"", "\"\"", "true", "4294967296"}) {
+        expect(R"({"options": {"faces": )" + value + "}}", "options.faces", value + whole);
+    }
+    expect(R"({"options": {"faces_min": {}}})", "options.facesMin", "an object" + whole);
+    expect(R"({"options": {"faces": [1]}})", "options.faces", "a list" + whole);
+    expect(R"({"options": {"markedEdges": [1, 2.5]}})", "options.markedEdges[1]", "2.5" + whole);
+    expect(R"({"options": {"sizing": {"spheres": [{}, {"size": "x"}]}}})", "options.sizing.spheres[1].size",
+           "\"x\"; accepted is a number");
+    expect(R"({"options": {"mode": "fast"}})", "options.mode", "\"fast\"; accepted is one of MODE_UNSPECIFIED, STRICT, EXTENDED");
+    expect(R"({"options": {"freezeBoundary": 1}})", "options.freezeBoundary", "1; accepted is true or false");
+    expect(R"({"options": 5})", "options", "5; accepted is an object; a query names its fields with a dot");
+    expect(R"({"session": 5})", "session", "5; accepted is text");
+}
+
+TEST(JsonTest, NamesTheFieldThatThereIsNot) {
+    const Error error = refusal_of(R"({"options": {"faecs": 1}})");
+    EXPECT_EQ(error.cause, Cause::kInvalidOption);
+    EXPECT_EQ(error.field, "options.faecs");
+    EXPECT_NE(error.message.find("ImproveOptions has no field"), std::string::npos) << error.message;
+    EXPECT_NE(error.message.find("facesMin"), std::string::npos) << error.message;
+    EXPECT_EQ(refusal_of(R"({"options.faces": 1})").field, "options.faces");
+    // Names that look like what the parser says.
+    for (const char* name :
+         {"(options.faces): invalid value 1 for type x", "): invalid value  for type ", "(", "()", "(options) a"}) {
+        EXPECT_NE(refusal_of(std::string("{\"") + name + "\": 1}").message, "") << name;
+    }
 }
 
 TEST(JsonTest, SurvivesDeepNesting) {

@@ -8,6 +8,7 @@
 #include "check.h"
 #include "rest/accept.h"
 #include "rest/byte_range.h"
+#include "rest/conditions.h"
 #include "rest/cors.h"
 #include "rest/path_template.h"
 #include "rest/percent.h"
@@ -43,6 +44,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto chosen = choose_media_type(text, offers);
     if (chosen) check(*chosen < offers.size(), "what is chosen is offered");
     static_cast<void>(accepts_encoding(text, "gzip"));
+    check(judge("", text, "\"a\"") != Condition::kFailed && judge(text, "", "\"a\"") != Condition::kNotModified,
+          "a condition is judged for what it asks");
     static_cast<void>(check_origin(text, asked, {}));
     const auto decoded = percent_decode(text);
     if (decoded) check(decoded->size() <= text.size(), "decoding does not lengthen");

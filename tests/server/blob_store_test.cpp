@@ -1,5 +1,3 @@
-#include "store/file_blob_store.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,8 +8,8 @@
 #include <vector>
 
 #include "scratch_dir.h"
+#include "store/file_blob_store.h"
 #include "store/mesh_blob.h"
-#include "store/sha256.h"
 #include "tests/core/meshes.h"
 
 namespace vsplit::store {
@@ -40,12 +38,6 @@ protected:
 
     test::ScratchDir scratch_;
 };
-
-TEST(Sha256Test, IsTheOneEverybodyKnows) {
-    EXPECT_EQ(sha256({}), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-    const std::vector<Bytes> parts{bytes_of("a"), bytes_of(""), bytes_of("bc")};
-    EXPECT_EQ(sha256(parts), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-}
 
 TEST_F(FileBlobStoreTest, GivesBackWhatItKeepsAlsoAfterItIsOpenedAnew) {
     const std::string large(1'000'000, 'x');

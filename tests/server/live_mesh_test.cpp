@@ -58,7 +58,7 @@ protected:
     }
     [[nodiscard]] PositionGrid grid(const EncodingChoice& choice) {
         const auto snapshot = server_.service().snapshot(session_);
-        return *PositionGrid::over(snapshot->representations.back()->mrr(), choice);
+        return *PositionGrid::over((*snapshot->representations.back()->levels().get())->mrr(), choice);
     }
     [[nodiscard]] std::uint32_t some_faces() {
         return made_.faces_min() + random_.below(made_.faces_max() - made_.faces_min() + 1);

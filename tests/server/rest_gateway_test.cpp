@@ -101,6 +101,9 @@ TEST_F(RestTest, OnlyChunkedIsATransferCoding) {
         EXPECT_TRUE(reply.status == 400 || reply.status == 501) << coding << ": " << reply.status;
         EXPECT_EQ(client.read_line(), "") << coding << ": a second answer";
     }
+    HttpClient old(server_.port());  // whose proxies know no chunks
+    old.send("POST /v1/sessions HTTP/1.0\r\nConnection: keep-alive\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n");
+    EXPECT_EQ(old.read_reply().status, 501U);
     EXPECT_EQ(server_.grpc().service().load().sessions, 0U);
 }
 
@@ -157,6 +160,85 @@ TEST_F(RestTest, DownloadsFilesAndRangesOfThem) {
     const HttpReply packed = ask("GET", target, {{"Accept-Encoding", "gzip"}});
     EXPECT_EQ(packed.fields.at("Content-Encoding"), "gzip");
     EXPECT_LT(packed.body.size(), whole.body.size());
+}
+
+TEST_F(RestTest, ADownloadIsKnownByItsBytes) {
+    const std::string id = session_of(icosphere(3));
+    const std::string target = "/v1/sessions/" + id + "/mesh?format=ply";
+    const HttpReply whole = ask("GET", target);
+    const std::string tag = whole.fields.at("ETag");
+    EXPECT_THAT(tag, ::testing::MatchesRegex("\"[0-9a-f]{64}\"")) << "and by nothing that tells the session";
+    EXPECT_EQ(whole.fields.at("Cache-Control"), "private, no-cache");
+    EXPECT_EQ(ask("HEAD", target).fields.at("ETag"), tag);
+    EXPECT_EQ(ask("GET", "/v1/sessions/" + session_of(icosphere(3)) + "/mesh?format=ply").fields.at("ETag"), tag);
+    EXPECT_NE(ask("GET", "/v1/sessions/" + id + "/mesh?format=stl").fields.at("ETag"), tag);
+    const std::string packed = ask("GET", target, {{"Accept-Encoding", "gzip"}}).fields.at("ETag");
+    EXPECT_NE(packed, tag) << "other bytes";
+    const HttpReply held = ask("GET", target, {{"If-None-Match", "\"other\""}, {"If-None-Match", "W/" + tag}});
+    EXPECT_EQ(held.status, 304U);
+    EXPECT_TRUE(held.whole && held.body.empty());
+    EXPECT_EQ(held.fields.at("ETag"), tag);
+    EXPECT_EQ(held.fields.count("Content-Length") + held.fields.count("Content-Type"), 0U);
+    EXPECT_EQ(ask("HEAD", target, {{"If-None-Match", tag}}).status, 304U);
+    EXPECT_EQ(ask("GET", target, {{"If-None-Match", packed}}).status, 200U);
+    EXPECT_EQ(ask("GET", target, {{"If-None-Match", packed}, {"Accept-Encoding", "gzip"}}).status, 304U);
+    EXPECT_TRUE(is_problem(ask("GET", target, {{"If-Match", "\"other\""}}), 412, "INVALID_OPTION"));
+    EXPECT_EQ(ask("GET", target, {{"If-Match", tag}}).body, whole.body);
+    ASSERT_EQ(ask("PUT", "/v1/sessions/" + id + "/mesh", {}, file_of(cube())).status, 200U);
+    EXPECT_EQ(ask("GET", target, {{"If-None-Match", tag}}).status, 200U) << "the mesh is another one";
+}
+
+TEST_F(RestTest, RangesAreGetsAndOfTheFileThatIsMeant) {
+    const std::string target = "/v1/sessions/" + session_of(icosphere(4)) + "/mesh?format=ply";
+    const HttpReply whole = ask("GET", target);
+    const std::string tag = whole.fields.at("ETag");
+    const HttpReply part = ask("GET", target, {{"Range", "Bytes=10-19"}, {"If-Range", tag}, {"Accept-Encoding", "gzip"}});
+    EXPECT_EQ(part.status, 206U);
+    EXPECT_EQ(part.body, whole.body.substr(10, 10));
+    EXPECT_EQ(part.fields.at("ETag"), tag);
+    for (const std::string& other : {std::string("\"other\""), "W/" + tag, std::string("Sat, 29 Oct 1994 19:43:31 GMT")}) {
+        EXPECT_EQ(ask("GET", target, {{"Range", "bytes=10-19"}, {"If-Range", other}}).status, 200U) << other;
+    }
+    EXPECT_EQ(ask("GET", target, {{"Range", "bytes=10-19"}, {"If-None-Match", tag}}).status, 304U);
+    const HttpReply all = ask("GET", target, {{"Range", "bytes=0-99999999999999999999"}});
+    EXPECT_EQ(all.status, 206U);
+    EXPECT_EQ(all.body, whole.body);
+    for (const char* range : {"bytes=10-19", "bytes=99999999-"}) {
+        const HttpReply head = ask("HEAD", target, {{"Range", range}});
+        EXPECT_EQ(head.status, 200U) << range;
+        EXPECT_EQ(head.fields.count("Content-Range"), 0U);
+        EXPECT_EQ(head.fields.at("Content-Length"), std::to_string(whole.body.size()));
+    }
+}
+
+TEST_F(RestTest, ADownloadIsOfATypeThatTheClientTakes) {
+    const std::string target = "/v1/sessions/" + session_of(cube()) + "/mesh";
+    const auto type_for = [&](const Fields& fields, const std::string& query = "") {
+        const HttpReply reply = ask("GET", target + query, fields);
+        return reply.status == 200 ? reply.fields.at("Content-Type") : std::to_string(reply.status);
+    };
+    EXPECT_EQ(type_for({}), "model/stl");
+    EXPECT_EQ(type_for({{"Accept", "*/*"}}), "model/stl");
+    EXPECT_EQ(type_for({{"Accept", "model/*"}}), "model/stl");
+    EXPECT_EQ(type_for({{"Accept", "application/octet-stream"}}), "application/octet-stream") << "what every file is";
+    EXPECT_EQ(type_for({{"Accept", "text/html"}, {"Accept", "text/plain;q=0.1"}}, "?format=off"), "text/plain");
+    const HttpReply refused = ask("GET", target, {{"Accept", "text/html"}});
+    EXPECT_TRUE(is_problem(refused, 406, "UNSUPPORTED"));
+    EXPECT_THAT(json_at(refused.body, "/detail"), HasSubstr("model/stl and application/octet-stream"));
+    EXPECT_EQ(json_at(refused.body, "/field"), "Accept");
+    EXPECT_EQ(type_for({{"Accept", "model/obj"}}), "406");
+    EXPECT_EQ(ask("HEAD", target, {{"Accept", "text/html"}}).status, 406U);
+}
+
+TEST_F(RestTest, PagesThatDoNotChangeAreNotSentTwice) {
+    const HttpReply first = ask("GET", "/openapi.json");
+    EXPECT_EQ(first.fields.at("Cache-Control"), "no-cache");
+    const HttpReply again = ask("GET", "/openapi.json", {{"If-None-Match", first.fields.at("ETag")}});
+    EXPECT_EQ(again.status, 304U);
+    EXPECT_TRUE(again.body.empty());
+    EXPECT_EQ(again.fields.at("Cache-Control"), "no-cache");
+    EXPECT_EQ(ask("GET", "/metrics").fields.count("ETag"), 0U);
+    EXPECT_EQ(ask("GET", "/metrics").fields.at("Cache-Control"), "no-store");
 }
 
 TEST_F(RestTest, MethodsAnswerAsAcceptAsks) {
@@ -266,13 +348,32 @@ TEST_F(RestTest, RefusesWhatHttpHasANameFor) {
         is_problem(ask("POST", session + ":improve", {{"Accept", "text/html, application/json;q=0"}}), 406, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("POST", session + ":improve", {{"Content-Type", "text/plain"}}, "{}"), 415, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("PUT", session + "/mesh", kJson, "{}"), 415, "UNSUPPORTED"));
-    EXPECT_TRUE(is_problem(ask("POST", session + ":improve", kJson, "{\"optoins\": {}}"), 400, "MALFORMED_INPUT"));
+    const Fields packed{{"Content-Type", "application/json"}, {"Content-Encoding", "gzip"}};
+    EXPECT_TRUE(is_problem(ask("POST", session + ":improve", packed, "{}"), 415, "UNSUPPORTED"));
+    EXPECT_TRUE(is_problem(ask("POST", session + ":improve", kJson, "{\"optoins\": {}}"), 400, "INVALID_OPTION"));
     EXPECT_TRUE(is_problem(ask("GET", session + "/quality?worst=many"), 400, "INVALID_OPTION"));
     EXPECT_TRUE(is_problem(ask("GET", session + "?x=%zz"), 400, "MALFORMED_INPUT"));
     EXPECT_TRUE(is_problem(ask("GET", session, kJson, "{}"), 400, "MALFORMED_INPUT"));
     EXPECT_TRUE(is_problem(ask("BREW", session), 501, "UNSUPPORTED"));
     EXPECT_TRUE(is_problem(ask("GET", "/healthz", {{"X", std::string(20000, 'x')}}), 431, "LIMIT_EXCEEDED"));
     EXPECT_TRUE(is_problem(ask("GET", "/healthz", {{"Host", "two"}}), 400, "MALFORMED_INPUT"));
+    for (const char* token : {"Bearer \xff", "Bearer a\tb"}) {  // what gRPC would end the program for
+        EXPECT_TRUE(is_problem(ask("GET", session, {{"Authorization", token}}), 400, "MALFORMED_INPUT"));
+    }
+}
+
+TEST_F(RestTest, AFieldThatDoesNotTakeItsValueIsNamed) {
+    const std::string target = "/v1/sessions/" + session_of(cube()) + ":improve";
+    for (const std::string value : {"1.5", "-5", "1e30", "\"abc\""}) {
+        const std::string plain = value == "\"abc\"" ? "abc" : value;
+        const std::string body = std::string(R"({"options": {"faces": )").append(value).append("}}");
+        const std::string query = std::string("?options.faces=").append(plain);
+        for (const HttpReply& reply : {ask("POST", target, kJson, body), ask("POST", target + query)}) {
+            EXPECT_TRUE(is_problem(reply, 400, "INVALID_OPTION"));
+            EXPECT_EQ(json_at(reply.body, "/field"), "options.faces");
+            EXPECT_THAT(json_at(reply.body, "/detail"), HasSubstr("a whole number from 0 to 4294967295"));
+        }
+    }
 }
 
 TEST_F(RestTest, DeepAndHugeJsonIsRefused) {
@@ -311,6 +412,21 @@ TEST_F(RestTest, PagesOfOtherOriginsAreRefusedUntilTheyAreAllowed) {
     EXPECT_EQ(test::ask(open.port(), "GET", "/v1/sessions", {{"Origin", "https://third.example"}}).status, 403U);
 }
 
+// What a page of another site is after its name was pointed at this machine: of the same origin, to the browser.
+TEST(RestHostTest, AServerThatTrustsWhoReachesItAnswersToItsOwnNamesAlone) {
+    rest::RestOptions options;
+    options.own_hosts_only = true;
+    RestFixture server(small_server(), options);
+    const auto ask_as = [&](const std::string& host) {
+        HttpClient client(server.port());
+        client.send(std::string("GET /v1/sessions HTTP/1.1\r\nHost: ").append(host).append("\r\n\r\n"));
+        return client.read_reply();
+    };
+    EXPECT_TRUE(is_problem(ask_as("evil.example:8080"), 421, "INVALID_OPTION"));
+    EXPECT_EQ(ask_as("127.0.0.1:8080").status, 200U);
+    EXPECT_EQ(ask_as("localhost").status, 200U);
+}
+
 TEST(RestLimitsTest, LimitsThatPassAre429AndSayWhenToTryAgain) {
     service::ServiceOptions options = small_server();
     options.limits.sessions = 1;
@@ -334,9 +450,6 @@ TEST(RestLimitsTest, SlowAndSuperfluousClientsAreShutOut) {
     HttpClient slow_header(server.port());
     slow_header.send("GET / HT");
     EXPECT_EQ(slow_header.read_reply().status, 0U);
-    HttpClient slow_body(server.port());
-    slow_body.send("POST /v1/sessions HTTP/1.1\r\nHost: t\r\nContent-Length: 10\r\n\r\nab");
-    EXPECT_NE(slow_body.read_reply().status, 200U);
     HttpClient idle(server.port());
     EXPECT_EQ(idle.read_line(), "") << "closed";
     ASSERT_TRUE(eventually([&] { return ask(server.port(), "GET", "/healthz").status == 200; }));
@@ -347,6 +460,46 @@ TEST(RestLimitsTest, SlowAndSuperfluousClientsAreShutOut) {
     HttpClient c(server.port());
     HttpClient d(server.port());
     EXPECT_TRUE(eventually([&] { return ask(server.port(), "GET", "/healthz").status == 503; }, std::chrono::milliseconds(200)));
+}
+
+TEST(RestLimitsTest, ABodyThatStallsIsAnswered) {
+    rest::RestOptions options;
+    options.limits.stall_time = std::chrono::milliseconds(300);
+    RestFixture server(small_server(), options);
+    const std::string id = session_with(server.grpc().stub(), cube());
+    const std::string session = "/v1/sessions/" + id;
+    struct Stalling {
+        std::string target;
+        const char* rest;
+    };
+    for (const auto& [target, rest] : {
+             Stalling{"POST /v1/sessions", "Content-Length: 10\r\n\r\nab"},
+             Stalling{"PUT " + session + "/mesh", "Transfer-Encoding: chunked\r\n\r\n5\r\nab"},
+             Stalling{"PUT " + session + "/mesh", "Content-Length: 10\r\nExpect: 100-continue\r\n\r\n"},
+             Stalling{"POST " + session + ":improve", "Content-Length: 10\r\nContent-Type: application/json\r\n\r\n{"},
+             Stalling{"GET /v1/sessions", "Content-Length: 10\r\n\r\n"},
+         }) {
+        const std::string request = std::string(target).append(" HTTP/1.1\r\nHost: t\r\n").append(rest);
+        HttpClient client(server.port());
+        client.send(request);
+        const HttpReply reply = client.read_reply();
+        EXPECT_TRUE(is_problem(reply, 408, "DEADLINE_EXCEEDED")) << request;
+        EXPECT_EQ(reply.fields.at("Connection"), "close");
+        EXPECT_EQ(client.read_line(), "") << "closed";
+    }
+    EXPECT_EQ(server.grpc().service().load().sessions, 1U) << "what stalled left none behind";
+    EXPECT_EQ(json_at(ask(server.port(), "GET", "/v1/sessions/" + id).body, "/source/faces"), "12");
+}
+
+TEST(RestLimitsTest, AJsonBodyCountsOnceHoweverItComes) {
+    rest::RestOptions options;
+    options.limits.all_json_bytes = std::uint64_t{1} << 20;
+    RestFixture server(small_server(), options);
+    HttpClient client(server.port());
+    const std::string body = "{}" + std::string(2000, ' ');
+    client.send("POST /v1/sessions HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n");
+    client.send(chunked(body, 1));
+    EXPECT_EQ(client.read_reply().status, 200U);
 }
 
 TEST(RestShutdownTest, LetsWhatIsBeingAnsweredEnd) {

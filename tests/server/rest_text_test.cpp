@@ -7,6 +7,8 @@
 
 #include "rest/accept.h"
 #include "rest/byte_range.h"
+#include "rest/conditions.h"
+#include "rest/cors.h"
 #include "rest/path_template.h"
 #include "rest/percent.h"
 #include "rest/target.h"
@@ -60,6 +62,7 @@ TEST(TargetTest, TakesPathAndQueryApart) {
     EXPECT_EQ(target->query[1].value, "a b&");
     EXPECT_EQ(target->query[2].name, "flag");
     EXPECT_EQ(target->query[3].value, "\xC3\xA9");
+    EXPECT_EQ(parse_target("HTTP://host/a")->path, "/a");
     for (const char* bad : {"", "*", "a", "host:80", "/?a=%", "/?%g0"}) EXPECT_FALSE(parse_target(bad)) << bad;
     std::string many = "/?";
     for (int i = 0; i < 1001; ++i) many += "a&";
@@ -91,13 +94,58 @@ TEST(ByteRangeTest, ReadsOneRange) {
     EXPECT_EQ(text("bytes=2-", 10), "2-9");
     EXPECT_EQ(text("bytes=-3", 10), "7-9");
     EXPECT_EQ(text("bytes=-30", 10), "0-9");
-    EXPECT_EQ(text("bytes=5-99999999999999999999", 10), "whole") << "no number";
+    EXPECT_EQ(text("bytes=5-99999999999999999999", 10), "5-9") << "as far as there is anything";
+    EXPECT_EQ(text("bytes=-99999999999999999999", 10), "0-9");
+    EXPECT_EQ(text("bytes=99999999999999999999-", 10), "none");
+    EXPECT_EQ(text("bytes=18446744073709551616-3", 10), "whole") << "ends before it begins";
+    EXPECT_EQ(text("Bytes=0-3", 10), "0-3");
+    EXPECT_EQ(text("BYTES = 0-3", 10), "0-3");
+    EXPECT_EQ(text("bytes=, 0-3 ,", 10), "0-3") << "a list of one";
     EXPECT_EQ(text("bytes=5-99", 10), "5-9");
     EXPECT_EQ(text("bytes=10-", 10), "none");
     EXPECT_EQ(text("bytes=-0", 10), "none");
-    for (const char* passed_over : {"", "items=0-1", "bytes=", "bytes=-", "bytes=3-2", "bytes=0-1,3-4", "bytes=a-b"}) {
+    for (const char* passed_over : {"", "items=0-1", "bytes=", "bytes=-", "bytes=3-2", "bytes=0-1,3-4", "bytes=a-b", "bytes",
+                                    "bytes=+1-2", "bytes=0x1-2", "bytes=1-2-3"}) {
         EXPECT_EQ(text(passed_over, 10), "whole") << passed_over;
     }
+}
+
+TEST(ConditionsTest, AreJudgedByTheEntityTag) {
+    const std::string tag = entity_tag("abc", "");
+    EXPECT_EQ(tag, "\"abc\"");
+    EXPECT_EQ(entity_tag("abc", "gzip"), "\"abc-gzip\"");
+    for (const char* held : {"\"abc\"", "W/\"abc\"", "*", "\"x\", \"abc\"", "\"a,b\" ,W/\"abc\",", "\"x\"\"abc\""}) {
+        EXPECT_EQ(judge("", held, tag), Condition::kNotModified) << held;
+    }
+    for (const char* other :
+         {"", "abc", "\"abc", "\"ABC\"", "\"abc-gzip\"", "w/\"abc\"", "W/abc", "W/", ",", "\"", "x, \"abc\""}) {
+        EXPECT_EQ(judge("", other, tag), Condition::kHolds) << other;
+    }
+    EXPECT_EQ(judge("\"abc\"", "", tag), Condition::kHolds);
+    EXPECT_EQ(judge("*", "", tag), Condition::kHolds);
+    EXPECT_EQ(judge("\"x\"", "\"abc\"", tag), Condition::kFailed) << "If-Match comes first";
+    EXPECT_EQ(judge("W/\"abc\"", "", tag), Condition::kFailed) << "a weak one is good for no part";
+    EXPECT_TRUE(range_holds("", tag));
+    EXPECT_TRUE(range_holds(tag, tag));
+    for (const char* other : {"\"x\"", "W/\"abc\"", "*", "Sat, 29 Oct 1994 19:43:31 GMT"})
+        EXPECT_FALSE(range_holds(other, tag)) << other;
+}
+
+TEST(CorsTest, AHostIsItsOwnByAddressAndByNamesThatAreAllowed) {
+    for (const char* own :
+         {"", "127.0.0.1", "127.0.0.1:8080", "[::1]:8080", "[::1]", "localhost", "LocalHost:1", "a.localhost:80", "10.1.2.3"}) {
+        EXPECT_TRUE(is_own_host(own, {})) << own;
+    }
+    for (const char* other : {"evil.example", "evil.example:8080", "127.0.0.1.evil.example", "localhost.evil.example",
+                              "xlocalhost", ":80", "a b", "0x7f.1"}) {
+        EXPECT_FALSE(is_own_host(other, {})) << other;
+    }
+    const std::array<std::string, 2> allowed{"https://mesh.example", "http://mesh.example:81"};
+    EXPECT_TRUE(is_own_host("Mesh.example", allowed));
+    EXPECT_TRUE(is_own_host("mesh.example:81", allowed));
+    EXPECT_FALSE(is_own_host("mesh.example:82", allowed));
+    const std::array<std::string, 1> any{"*"};
+    EXPECT_TRUE(is_own_host("evil.example", any));
 }
 
 TEST(PercentTest, Decodes) {

@@ -68,7 +68,7 @@ TEST(TempFileTest, SaysWhenTheDirectoryRefusesIt) {
     const Expected<TempFile> file = TempFile::create();
     unsetenv("TMPDIR");
     ASSERT_FALSE(file);
-    EXPECT_EQ(file.error().cause, Cause::kFileAccess);
+    EXPECT_EQ(file.error().cause, Cause::kUnavailable);
 }
 
 }  // namespace

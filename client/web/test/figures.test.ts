@@ -15,7 +15,8 @@ const hypotenuse = 2 * Math.SQRT2;
 const right = (Math.sqrt(12) * (2 - Math.SQRT2)) / hypotenuse;
 
 test("least, mean and largest are those of the faces and vertices", () => {
-  const { spread } = measure(surface);
+  const { spread, sizes } = measure(surface);
+  expect(sizes).toEqual([2, hypotenuse]);
   const near = (spread: readonly number[], expected: number[]): void => expected.forEach((value, n) => expect(spread[n]).toBeCloseTo(value, 12));
   near(spread.stretch, [right, (2 + right) / 3, 1]);
   near(spread.size, [2, (4 + hypotenuse) / 3, hypotenuse]);

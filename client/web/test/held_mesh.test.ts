@@ -2,6 +2,7 @@ import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import { readGolden } from "../decoder/test/golden";
 import { HeldMesh } from "../src/worker/held_mesh";
+import { Ramp } from "../src/shared/colours";
 import { measure } from "../src/worker/figures";
 import { Painter } from "../src/worker/painter";
 import { isSeen } from "../src/worker/surface";
@@ -16,6 +17,7 @@ function load(name: string): HeldMesh {
   return held;
 }
 
+const valence = new Ramp("valence", [3, 12]);
 const names = ["records_1_float32_closed.golden", "records_1_float32_open.golden", "records_1_quantised14_open.golden"];
 
 test.each(names)("%s: any level is the finest of at most so many faces, and comes back the same", (name) => {
@@ -42,8 +44,7 @@ test.each(names)("%s: any level is the finest of at most so many faces, and come
 
 test.each(names)("%s: patches make the same faces as drawing all", (name) => {
   const held = load(name);
-  const painter = new Painter([1, 2, 3]);
-  painter.colourBy("valence", 0); // the colour that depends on most: on edges to vertices that did not move
+  const painter = new Painter([1, 2, 3], valence); // the colour that depends on most: on edges to vertices that did not move
   const drawn: number[] = [], coloured: number[] = [];
   held.takeChanges();
   const apply = ({ runs, positions, colours }: { runs: Uint32Array; positions: Float32Array; colours: Uint8Array }) => {
@@ -67,8 +68,7 @@ test.each(names)("%s: patches make the same faces as drawing all", (name) => {
 
 test.each(names)("%s: a face whose colour by valence changes is among the changes", (name) => {
   const held = load(name);
-  const painter = new Painter([0, 0, 0]);
-  painter.colourBy("valence", 0);
+  const painter = new Painter([0, 0, 0], valence);
   held.takeChanges();
   let before = painter.whole(held.mesh).colours;
   for (let faces = held.visibleHeld - 2, n = 0; n < 40; ++n, faces += n % 3 === 2 ? 2 : -2) {
@@ -80,5 +80,19 @@ test.each(names)("%s: a face whose colour by valence changes is among the change
       expect(same || changes.has(f)).toBe(true);
     }
     before = colours;
+  }
+});
+
+test.each(names)("%s: a patch tells the sizes of its faces", (name) => {
+  const held = load(name);
+  const painter = new Painter([0, 0, 0], valence);
+  for (const share of [1, 0.5, 0.98]) {
+    held.show(Math.round(share * held.visibleHeld));
+    const { sizes } = measure(held.mesh);
+    expect(painter.whole(held.mesh).sizes).toEqual(sizes);
+    const some = painter.some(held.mesh, Uint32Array.of(held.mesh.faceCount - 1)).sizes;
+    expect(some[0]).toBeGreaterThanOrEqual(sizes[0]);
+    expect(some[1]).toBeLessThanOrEqual(sizes[1]);
+    expect(some[0]).toBe(some[1]);
   }
 });

@@ -12,7 +12,7 @@ const contract: Contract = {
         properties: {
           featureAngle: { ...double, description: "Degrees: an edge bends by more. 0..180, default 40." },
           tolerance: { ...double, description: "Bound of `error`. > 0. Default: half of max_deviation, or 0.1 % of the diagonal." },
-          faces: { type: "integer", description: "Resolution." },
+          faces: { type: "integer", minimum: 0, maximum: 4294967295, description: "Resolution." },
           mode: { $ref: "#/components/schemas/Mode", description: "Default EXTENDED." },
           markedEdges: { type: "array" },
           sizing: { $ref: "#/components/schemas/Sizing" },
@@ -33,6 +33,7 @@ test("options come from the contract: kinds, units, defaults, help", () => {
     ["mode", "choice", "", "EXTENDED"],
     ["sizing.chordError", "number", "units", "none"],
   ]);
+  expect(options[2]!.bounds).toEqual([0, 4294967295]);
   expect(options[3]!.choices).toEqual(["MODE_UNSPECIFIED", "STRICT"]);
 });
 

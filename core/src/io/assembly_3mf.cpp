@@ -97,7 +97,7 @@ SetCells cells_of(const Object3mf& object) {
 
 class Assembly {
 public:
-    Assembly(const std::vector<Model3mf>& models, std::uint32_t max_faces) : root_(models.front()), max_faces_(max_faces) {
+    Assembly(const std::vector<Model3mf>& models, const ReadOptions& options) : root_(models.front()), options_(options) {
         // An object names such as stand before it, and an object of the root any of other files.
         for (auto model = models.rbegin(); model != models.rend(); ++model) {
             for (const Object3mf& object : model->objects) nodes_.push_back({&*model, &object, {}, {}});
@@ -166,7 +166,8 @@ private:
             return read_error(Cause::kLimitExceeded, place, "components are over " + std::to_string(kDeepest) + " deep");
         if (all.vertices > kMaxVertices)
             return read_error(Cause::kLimitExceeded, place, "the build comes to over " + std::to_string(kMaxVertices) + " vertices");
-        return check_face_limit(all.faces, max_faces_, place);
+        if (Status few = check_face_limit(all.faces, options_.max_faces, place); !few) return few;
+        return options_.make_room ? options_.make_room(all.faces) : Status(Done{});
     }
 
     Status place(std::size_t n, const std::optional<Placement3mf>& placement, const std::string& name, std::size_t line) {
@@ -269,7 +270,7 @@ private:
     }
 
     const Model3mf& root_;
-    std::uint32_t max_faces_;
+    const ReadOptions& options_;
     std::vector<Node> nodes_;
     std::map<std::pair<std::string, std::uint64_t>, std::size_t> by_id_;  // of those linked
     TriangleMesh mesh_;
@@ -283,8 +284,8 @@ private:
 
 }  // namespace
 
-Expected<TriangleMesh> assemble_3mf(const std::vector<Model3mf>& models, std::uint32_t max_faces) {
-    return Assembly(models, max_faces).make();
+Expected<TriangleMesh> assemble_3mf(const std::vector<Model3mf>& models, const ReadOptions& options) {
+    return Assembly(models, options).make();
 }
 
 }  // namespace vsplit

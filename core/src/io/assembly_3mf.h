@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "io/model_3mf.h"
 #include "vsplit/base/expected.h"
+#include "vsplit/io/read_mesh.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
@@ -17,8 +17,9 @@ namespace vsplit {
 /// of their first face; where there is one object only, 0 are the faces in none of its sets, and without sets there are no regions.
 /// Support is left out.
 ///
-/// `models`: the root first. \return LIMIT_EXCEEDED for more than `max_faces`, a million placed objects, or components 64 deep;
-/// MALFORMED_INPUT for an object that is not defined, or not before; INVALID_COORDINATE. O(faces of the result).
-[[nodiscard]] Expected<TriangleMesh> assemble_3mf(const std::vector<Model3mf>& models, std::uint32_t max_faces);
+/// `models`: the root first. \return LIMIT_EXCEEDED for more than `options.max_faces`, a million placed objects, or components 64 deep;
+/// MALFORMED_INPUT for an object that is not defined, or not before; INVALID_COORDINATE; what
+/// `options.make_room` returns. O(faces of the result).
+[[nodiscard]] Expected<TriangleMesh> assemble_3mf(const std::vector<Model3mf>& models, const ReadOptions& options);
 
 }  // namespace vsplit

@@ -75,16 +75,16 @@ std::vector<std::string> parts_named(const Model3mf& model) {
 
 }  // namespace
 
-Expected<TriangleMesh> read_3mf(std::span<const std::byte> bytes, std::uint32_t max_faces, std::optional<LengthUnit>& unit) {
+Expected<TriangleMesh> read_3mf(std::span<const std::byte> bytes, const ReadOptions& options, std::optional<LengthUnit>& unit) {
     const Expected<ZipReader> archive = ZipReader::open(bytes);
     if (!archive) return archive.error();
-    Parts parts(*archive, max_faces);
+    Parts parts(*archive, options.max_faces);
     const auto read = [&](const std::string& name) -> Expected<Model3mf> {
         const ZipEntry* entry = archive->find(name);
         if (entry == nullptr) return Error{Cause::kMalformedInput, "the archive has no " + quoted(name) + ", which it names", ""};
         Expected<XmlStream> xml = parts.open(*entry);
         if (!xml) return xml.error();
-        return read_model_3mf(name, *std::move(xml), max_faces);
+        return read_model_3mf(name, *std::move(xml), options.max_faces);
     };
     const Expected<std::string> root = root_of(*archive, parts);
     if (!root) return root.error();
@@ -106,7 +106,7 @@ Expected<TriangleMesh> read_3mf(std::span<const std::byte> bytes, std::uint32_t 
         models.push_back(*std::move(model));
     }
     unit = models.front().unit;
-    return assemble_3mf(models, max_faces);
+    return assemble_3mf(models, options);
 }
 
 }  // namespace vsplit

@@ -49,8 +49,9 @@ Expected<MeshFormat> choose_format(std::span<const std::byte> bytes, std::option
 }
 
 /// `unit` becomes what the file says, where it says one.
-Expected<TriangleMesh> read_as(MeshFormat format, std::span<const std::byte> bytes, std::uint32_t max_faces,
+Expected<TriangleMesh> read_as(MeshFormat format, std::span<const std::byte> bytes, const ReadOptions& options,
                                std::optional<LengthUnit>& unit) {
+    const std::uint32_t max_faces = options.max_faces;
     switch (format) {
         case MeshFormat::kStlBinary:
             return read_stl_binary(bytes, max_faces);
@@ -76,7 +77,7 @@ Expected<TriangleMesh> read_as(MeshFormat format, std::span<const std::byte> byt
         case MeshFormat::kVtu:
             return read_vtu(bytes, max_faces);
         case MeshFormat::k3mf:
-            return read_3mf(bytes, max_faces, unit);
+            return read_3mf(bytes, options, unit);
         case MeshFormat::kOff:
             break;
     }
@@ -99,7 +100,7 @@ Expected<ReadResult> read_mesh(std::span<const std::byte> bytes, const ReadOptio
     const Expected<MeshFormat> format = choose_format(bytes, options.format);
     if (!format) return format.error();
     std::optional<LengthUnit> told;
-    Expected<TriangleMesh> mesh = read_as(*format, bytes, options.max_faces, told);
+    Expected<TriangleMesh> mesh = read_as(*format, bytes, options, told);
     if (!mesh) return mesh.error();
     const Expected<std::optional<LengthUnit>> unit = agreed_unit(told, options.unit);
     if (!unit) return unit.error();

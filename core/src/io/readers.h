@@ -6,6 +6,7 @@
 #include <span>
 
 #include "vsplit/base/expected.h"
+#include "vsplit/io/read_mesh.h"
 #include "vsplit/mesh/length_unit.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
@@ -25,7 +26,7 @@ namespace vsplit {
 [[nodiscard]] Expected<TriangleMesh> read_vtk(std::span<const std::byte> bytes, std::uint32_t max_faces);
 [[nodiscard]] Expected<TriangleMesh> read_vtu(std::span<const std::byte> bytes, std::uint32_t max_faces);
 /// `unit` becomes the file's.
-[[nodiscard]] Expected<TriangleMesh> read_3mf(std::span<const std::byte> bytes, std::uint32_t max_faces,
+[[nodiscard]] Expected<TriangleMesh> read_3mf(std::span<const std::byte> bytes, const ReadOptions& options,
                                               std::optional<LengthUnit>& unit);
 
 }  // namespace vsplit

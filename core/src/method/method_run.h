@@ -12,8 +12,8 @@ namespace vsplit {
 struct MethodRun {
     PrepareOptions prepare;
     bool extended = false;
-    double max_deviation = 0;       ///< as used; extended mode only
-    std::optional<double> limit{};  ///< max_deviation where it was given: to be kept for certain
+    double max_deviation = 0;                            ///< as used; extended mode only
+    std::optional<double> limit{};                       ///< max_deviation where it was given: to be kept for certain
     std::function<Status(std::uint32_t faces)> admit{};  ///< MethodLimits::admit
 };
 

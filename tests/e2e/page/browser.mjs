@@ -58,9 +58,28 @@ export async function settled(page, timeout = 60000) {
   );
 }
 
+const sessionIn = (page) => page.evaluate(() => new URLSearchParams(location.hash.slice(1)).get("session"));
+
+/** Waits until another session than `before` is drawn, or something is said. */
+async function opened(page, before) {
+  const isThere = (old) => {
+    const said = new URLSearchParams(location.hash.slice(1));
+    return (said.get("session") !== old && document.getElementById("canvas").dataset.source) || document.querySelector("#problems p");
+  };
+  await page.waitForFunction(isThere, before, { timeout: 60000 });
+}
+
 export async function upload(page, file) {
+  const before = await sessionIn(page);
   await page.setInputFiles("#file", file);
-  await page.waitForFunction(() => document.getElementById("canvas").dataset.source || document.querySelector("#problems p"), null, { timeout: 60000 });
+  await opened(page, before);
+}
+
+/** Takes a sample by a double click. */
+export async function takeSample(page, name) {
+  const before = await sessionIn(page);
+  await page.dblclick(`#samples button:text("${name}")`);
+  await opened(page, before);
 }
 
 export async function run(page, verb, options) {

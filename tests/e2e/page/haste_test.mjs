@@ -48,6 +48,22 @@ const steps = {
     assert.equal(result, representations.find((one) => one.id === representation).facesMax);
   },
 
+  async "steps of the slider that are overtaken while they wait are not drawn"({ page, address }) {
+    const drawn = () => page.evaluate(() => performance.getEntriesByName("vsplit copied").length);
+    const before = await drawn();
+    const shares = Array.from({ length: 60 }, (_, n) => 1 - n / 100);
+    await drag(page, shares);
+    await settled(page);
+    const steps = (await drawn()) - before;
+    assert.ok(steps > 0 && steps <= 10, `${steps} of ${shares.length} steps were drawn`);
+    const { session, representation, result } = await shownOn(page);
+    const { representations } = await (await fetch(`${address}/v1/sessions/${session}`)).json();
+    const { facesMin, facesMax } = representations.find((one) => one.id === representation);
+    const last = facesMin * (facesMax / facesMin) ** shares.at(-1);
+    assert.ok(Math.abs(result - last) <= 2, `${result} faces are shown where ${last} were asked for last`);
+    assert.deepEqual(await complaints(page), []);
+  },
+
   async "down again while finer records are on their way stays down"({ page }) {
     await slide(page, 0.3);
     await settled(page);

@@ -4,6 +4,8 @@ export interface Place {
   representation?: string;
   faces?: number;
   name?: string;
+  /** Which of the samples it is. */
+  sample?: string;
 }
 
 export function readPlace(): Place {
@@ -13,6 +15,7 @@ export function readPlace(): Place {
     representation: said.get("representation") ?? undefined,
     faces: /^[1-9]\d{0,9}$/.test(said.get("faces") ?? "") ? Number(said.get("faces")) : undefined,
     name: said.get("name") ?? undefined,
+    sample: said.get("sample") ?? undefined,
   };
 }
 

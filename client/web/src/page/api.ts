@@ -39,6 +39,11 @@ export function upload(file: Blob, options: UploadOptions, sent: (share: number)
 
 export const getSession = (id: string): Promise<Session> => get(SessionSchema, `/v1/sessions/${encodeURIComponent(id)}`);
 
+export async function deleteSession(id: string): Promise<void> {
+  const response = await fetch(`/v1/sessions/${encodeURIComponent(id)}`, { method: "DELETE", headers: fields() });
+  if (!response.ok) throw await problemOf(response);
+}
+
 export function getQuality(session: string, representation: string, faces: number, worst: number): Promise<Quality> {
   const query = new URLSearchParams({ worst: String(worst) });
   if (representation) query.set("representation", representation);

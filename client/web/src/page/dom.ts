@@ -19,6 +19,19 @@ export function find<Kind extends HTMLElement>(id: string): Kind {
   return found as Kind;
 }
 
+/** Moves the focus where it would be lost with `gone`, that is to be hidden, disabled or taken out. */
+export function passFocus(gone: HTMLElement, next: HTMLElement): void {
+  if (gone.contains(document.activeElement)) next.focus({ preventScroll: true });
+}
+
+/** Gives a place other children. A focus on one of its buttons goes to the one that is there now. */
+export function refill(place: HTMLElement, ...children: (Node | string)[]): void {
+  const buttons = (): HTMLElement[] => [...place.querySelectorAll("button")];
+  const at = buttons().indexOf(document.activeElement as HTMLElement);
+  place.replaceChildren(...children);
+  if (at >= 0) (buttons()[at] ?? buttons().at(-1) ?? find("canvas")).focus({ preventScroll: true });
+}
+
 const whole = new Intl.NumberFormat("en");
 export const count = (value: number): string => whole.format(value);
 export const figure = (value: number, digits = 4): string => (Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : "none");

@@ -1,4 +1,5 @@
 import { element } from "./dom";
+import { check, clear, pointAt } from "./number_field";
 import { labelOf, type Option } from "./schema";
 
 /** Options that most people set; the others are folded away. */
@@ -10,35 +11,46 @@ type Field = HTMLInputElement | HTMLSelectElement;
 export class MethodForm {
   private readonly fields: { option: Option; field: Field }[] = [];
   private readonly run: HTMLButtonElement;
+  private suggested: Readonly<Record<string, string>> = {};
 
   constructor(private readonly form: HTMLFormElement, verb: string, options: Option[], start: (body: object) => void) {
     const rows = options.map((option) => this.row(option));
     const shown = rows.filter((_, n) => first.includes(options[n]!.path[0]!));
     const folded = rows.filter((_, n) => !first.includes(options[n]!.path[0]!));
-    this.run = element("button", { type: "submit", disabled: true }, verb);
+    this.run = element("button", { type: "submit", "aria-disabled": "true" }, verb);
     form.noValidate = true;
     form.append(...shown, element("details", {}, element("summary", {}, "More options"), ...folded), this.run);
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      if (!this.run.disabled && this.check()) start(this.options());
+      if (this.enabled && this.check()) start(this.options());
     });
   }
 
+  /** Sets options that suit a mesh, instead of those that suited the one before. What people set themselves stays. */
+  suggest(options: Readonly<Record<string, string>>): void {
+    for (const { option, field } of this.fields) {
+      const name = option.path.join("."), before = this.suggested[name];
+      if (before !== undefined && field.value === before) field.value = "";
+      if (options[name] !== undefined) field.value = options[name];
+    }
+    this.suggested = options;
+  }
+
+  /** The button that runs the method keeps the focus when it cannot be pressed for a while. */
+  get enabled(): boolean {
+    return this.run.getAttribute("aria-disabled") === "false";
+  }
+
   set enabled(value: boolean) {
-    this.run.disabled = !value;
+    this.run.setAttribute("aria-disabled", String(!value));
   }
 
   /** Points at the field that the server says is at fault. */
   blame(name: string | undefined): void {
     const path = name?.replace(/^options\./, "").replace(/_([a-z])/g, (_, letter: string) => letter.toUpperCase());
     for (const { option, field } of this.fields) {
-      const guilty = option.path.join(".") === path;
-      if (guilty) field.setAttribute("aria-invalid", "true");
-      else field.removeAttribute("aria-invalid");
-      if (guilty) {
-        field.closest("details")?.setAttribute("open", "");
-        field.focus();
-      }
+      if (option.path.join(".") === path) pointAt(field);
+      else clear(field);
     }
   }
 
@@ -71,11 +83,13 @@ export class MethodForm {
     return element("input", { id, type: "number", step: option.kind === "whole" ? 1 : "any", placeholder: standard || "default", title: option.standard, inputmode: "decimal", "aria-describedby": help });
   }
 
-  /** What the server cannot know: that a field holds no number at all. */
+  /** Points at the first field that cannot be sent. */
   private check(): boolean {
-    const bad = this.fields.find(({ field }) => field instanceof HTMLInputElement && field.validity.badInput);
-    bad?.field.focus();
-    return bad === undefined;
+    this.blame(undefined);
+    return this.fields.every(({ option, field }) => {
+      const { kind, path, bounds } = option;
+      return kind === "flag" || kind === "choice" || check(field as HTMLInputElement, labelOf(path), kind === "whole" ? bounds : undefined);
+    });
   }
 
   private options(): object {

@@ -1,19 +1,20 @@
-import { Ramp, type ColourBy } from "../shared/colours";
+import { Ramp, type ColourBy, type Range } from "../shared/colours";
 import { element, figure } from "./dom";
 
 const steps = 24;
 
 /** What the colours mean. */
-export function legend(by: ColourBy, range: readonly [number, number]): HTMLElement {
+export function legend(by: ColourBy, range: Range): HTMLElement {
   const ramp = new Ramp(by, range);
   const bar = element("span", { class: "bar", "aria-hidden": "true" });
   const [low, high] = range;
   for (let n = 0; n < steps; ++n) {
     const part = element("span");
-    part.style.background = ramp.css(low + ((n + 0.5) / steps) * (high - low));
+    part.style.background = ramp.cssAt((n + 0.5) / steps);
     bar.append(part);
   }
-  const words = { stretch: "stretch", size: "longest edge, model units", valence: "edges at a vertex" }[by];
-  const floor = by === "stretch" ? "; red under 0.2" : "";
-  return element("div", {}, element("span", {}, figure(low, 3)), bar, element("span", {}, figure(high, 3)), element("span", { class: "hint" }, words + floor));
+  const words = { stretch: "stretch; red under 0.2", size: "longest edge, model units; logarithmic", valence: "edges at a vertex" }[by];
+  // Stretch has these bounds, and sizes reach from the one to the other; a valence may be beyond.
+  const [from, to] = by === "valence" ? [`≤ ${low}`, `≥ ${high}`] : [figure(low, 3), figure(high, 3)];
+  return element("div", {}, element("span", {}, from), bar, element("span", {}, to), element("span", { class: "hint" }, words));
 }

@@ -1,8 +1,11 @@
-import type { FaceQuality, Finding, Representation, Slivers, Vector } from "../gen/vsplit/v1/meshing_pb";
-import type { Point } from "../shared/protocol";
+import type { FaceQuality, Finding, Representation, Vector } from "../gen/vsplit/v1/meshing_pb";
+import type { Element, Point } from "../shared/protocol";
 import { count, element, figure } from "./dom";
 
 export type Fly = (place: Point, size: number) => void;
+
+/** Buttons a note has at most. */
+const mostPlaces = 40;
 
 const pointOf = (v: Vector | undefined): Point => [v?.x ?? 0, v?.y ?? 0, v?.z ?? 0];
 
@@ -18,27 +21,45 @@ export function worstList(faces: FaceQuality[], fly: Fly): HTMLElement {
   return list;
 }
 
+/** Buttons with numbers that fly to places. `names`: of all of them, for those who do not see. */
+function placeButtons(names: string[], go: (n: number) => void): HTMLElement {
+  const places = element("span", { class: "links" });
+  names.slice(0, mostPlaces).forEach((name, n) => {
+    places.append(element("button", { type: "button", class: "quiet", "aria-label": name, click: () => go(n) }, String(n + 1)));
+  });
+  return places;
+}
+
 /** What was found, with its places. `size`: of what is around a place, where nothing tells. */
 export function findingList(findings: Finding[], size: number, fly: Fly): HTMLElement[] {
   return findings.map((finding) => {
-    const places = element("span", { class: "links" });
-    finding.places.forEach((place, n) => {
-      const go = element("button", { type: "button", class: "quiet", "aria-label": `${finding.kind}, place ${n + 1}` }, String(n + 1));
-      go.addEventListener("click", () => fly(pointOf(place), size));
-      places.append(go);
-    });
+    const names = finding.places.map((_, n) => `${finding.kind}, place ${n + 1}`);
+    const places = placeButtons(names, (n) => fly(pointOf(finding.places[n]), size));
     return element("div", { class: "note" }, element("strong", {}, `${finding.kind.toLowerCase().replace(/_/g, " ")} × ${count(finding.count)}`), element("p", {}, finding.message), places);
   });
 }
 
-function sliverNote(slivers: Slivers): HTMLElement {
-  return element("div", { class: "note" }, element("strong", {}, slivers.cause.toLowerCase().replace(/_/g, " ")), element("p", {}, slivers.message));
+/** The bound of control that vertices break; the others are of faces. */
+const ofVertices = "max_valence";
+
+/** What is amiss with a result: faces or vertices of it, each a button that goes there. */
+function elementNote(title: string, words: string, of: Element["of"], numbers: number[], total: number, go: (element: Element) => void): HTMLElement {
+  const names = numbers.map((number) => `${title}, ${of} ${count(number)}`);
+  const places = placeButtons(names, (n) => go({ of, number: numbers[n]! }));
+  const shown = places.childElementCount;
+  const more = shown > 0 && shown < total ? element("p", {}, `The first ${shown} of ${count(total)}.`) : undefined;
+  return element("div", { class: "note" }, element("strong", {}, title), element("p", {}, words), places, more);
 }
 
 /** Bounds that a result breaks at the resolution it was asked for, and why slivers are left in it there. */
-export function resultNotes(made: Representation, faces: number): HTMLElement[] {
-  const broken = made.violations.map((v) =>
-    element("div", { class: "note bad" }, element("strong", {}, `${v.bound} not met`), element("p", {}, `asked ${figure(v.limit)}, worst ${figure(v.worst)}, ${count(v.count)} elements. ${v.reason}`)));
-  const notes = [...broken, ...made.slivers.map(sliverNote)];
+export function resultNotes(made: Representation, faces: number, go: (element: Element) => void): HTMLElement[] {
+  const broken = made.violations.map((v) => {
+    const words = `asked ${figure(v.limit)}, worst ${figure(v.worst)}, ${count(v.count)} elements. ${v.reason}`;
+    const note = elementNote(`${v.bound} not met`, words, v.bound === ofVertices ? "vertex" : "face", v.elements, v.count, go);
+    note.classList.add("bad");
+    return note;
+  });
+  const slivers = made.slivers.map((s) => elementNote(s.cause.toLowerCase().replace(/_/g, " "), s.message, "face", s.elements, s.count, go));
+  const notes = [...broken, ...slivers];
   return notes.length > 0 ? [element("p", { class: "hint" }, `The result, at ${count(faces)} faces:`), ...notes] : [];
 }

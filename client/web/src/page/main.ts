@@ -1,27 +1,36 @@
 import type { ColourBy } from "../shared/colours";
 import { Problem, problemOf, problemText } from "../shared/problem";
+import { readPlace } from "./address";
 import { upload } from "./api";
-import { element, find } from "./dom";
+import { element, find, passFocus } from "./dom";
 import { fetchFile } from "./download";
 import { MethodForm } from "./form";
-import { hideProblem, showProblem } from "./problems";
+import { check, clear, pointAt } from "./number_field";
+import { hideProblem, showProblem, startProblems } from "./problems";
 import { ProgressBar } from "./progress";
+import { samples } from "./samples";
 import { formatsOf, methodOptions, type Contract } from "./schema";
 import { startTheme } from "./theme";
 import { startToken } from "./token";
 import { Viewer, type View } from "./viewer";
 import { Workbench } from "./workbench";
 
-const samples = ["bracket.stl", "scan.ply"];
-
 const viewer = new Viewer(find("canvas"));
 const forms: MethodForm[] = [];
 let started: MethodForm | undefined;
-const bench = new Workbench(viewer, (ready, problem) => {
-  for (const form of forms) form.enabled = ready;
-  if (problem?.field) started?.blame(problem.field);
-  updateDownload();
-});
+const bench = new Workbench(
+  viewer,
+  (ready, problem) => {
+    for (const form of forms) form.enabled = ready && sending === undefined;
+    if (problem?.field) started?.blame(problem.field);
+    updateDownload();
+  },
+  (name) => {
+    const sample = samples.find((one) => one.name === name);
+    for (const form of forms) form.suggest(sample?.options ?? {});
+    find("sample-note").textContent = sample?.note ?? "";
+  },
+);
 
 function updateDownload(): void {
   const link = find<HTMLAnchorElement>("download");
@@ -32,37 +41,69 @@ function updateDownload(): void {
 
 let sending: AbortController | undefined;
 
-/** Uploads a mesh; one that is still on its way gives way to it. */
-async function send(file: Blob, name: string): Promise<void> {
-  hideProblem();
+function giveUpSending(): void {
   sending?.abort();
+  sending = undefined;
+}
+
+function enableForms(): void {
+  for (const form of forms) form.enabled = bench.ready && sending === undefined;
+}
+
+/** Uploads a mesh; one that is still on its way gives way to it. */
+async function send(get: (signal: AbortSignal) => Promise<Blob>, name: string, sample?: string): Promise<void> {
+  const weld = find<HTMLInputElement>("weld");
+  clear(weld);
+  if (!check(weld, "Weld")) return;
+  hideProblem();
+  giveUpSending();
   const stop = (sending = new AbortController());
-  for (const form of forms) form.enabled = false;
-  const progress = new ProgressBar(find("upload"), () => stop.abort());
+  enableForms();
+  const progress = new ProgressBar(find("upload"), () => find("file"), () => stop.abort());
   progress.show("upload", 0);
   try {
-    const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(find<HTMLInputElement>("weld").value) || 0 };
-    const session = await upload(file, options, (share) => progress.show(share < 1 ? "upload" : "inspect", share), stop.signal);
-    if (sending === stop) bench.open(session, name);
+    const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(weld.value) };
+    const session = await upload(await get(stop.signal), options, (share) => progress.show(share < 1 ? "upload" : "inspect", share), stop.signal);
+    if (sending === stop) bench.replace(session, name, sample);
   } catch (error) {
-    if (sending === stop) showProblem(problemText(error));
+    if (sending !== stop) return;
+    const problem = problemText(error);
+    showProblem(problem);
+    if (problem.field === "weld") pointAt(weld);
   } finally {
     progress.hide();
-    if (sending === stop) for (const form of forms) form.enabled = bench.ready;
+    if (sending === stop) sending = undefined;
+    enableForms();
   }
 }
 
-async function fetchSample(name: string): Promise<void> {
-  const response = await fetch(`samples/${name}`);
+async function fetchSample(name: string, signal: AbortSignal): Promise<Blob> {
+  const response = await fetch(`samples/${name}`, { signal });
   if (!response.ok) throw new Problem({ cause: "NOT_FOUND", detail: `the server has no sample ${name}` });
-  await send(await response.blob(), name);
+  return response.blob();
+}
+
+function startSamples(): void {
+  let coming: string | undefined;
+  for (const { name } of samples) {
+    const button = element("button", { type: "button", class: "quiet" }, name);
+    button.addEventListener("click", (event) => {
+      // Two clicks in a row ask once.
+      if (event.detail > 1 || coming === name) return;
+      coming = name;
+      void send((signal) => fetchSample(name, signal), name, name).finally(() => {
+        if (coming === name) coming = undefined;
+      });
+    });
+    find("samples").append(button);
+  }
 }
 
 function startUpload(): void {
   const input = find<HTMLInputElement>("file");
   const take = (files: FileList | null | undefined): void => {
     const file = files?.[0];
-    if (file) void send(file, file.name);
+    if (file) void send(() => Promise.resolve(file), file.name);
   };
   input.addEventListener("change", () => {
     take(input.files);
@@ -81,13 +122,6 @@ function startUpload(): void {
     body.classList.remove("dragging");
     take(event.dataTransfer?.files);
   });
-  for (const name of samples) {
-    const button = element("button", { type: "button", class: "quiet" }, name);
-    button.addEventListener("click", () => {
-      fetchSample(name).catch((error: unknown) => showProblem(problemText(error)));
-    });
-    find("samples").append(button);
-  }
 }
 
 function startTools(): void {
@@ -97,10 +131,14 @@ function startTools(): void {
   find("fit").addEventListener("click", () => viewer.fit());
   const axis = find<HTMLSelectElement>("cut-axis"), share = find<HTMLInputElement>("cut");
   const cut = (): void => {
+    if (axis.value === "") passFocus(share, axis);
     share.disabled = axis.value === "";
     viewer.cut(axis.value === "" ? undefined : Number(axis.value), Number(share.value));
   };
-  viewer.shown = (view) => (find<HTMLSelectElement>("view").value = view);
+  viewer.shown = (view) => {
+    find<HTMLSelectElement>("view").value = view;
+    bench.show(view);
+  };
   viewer.uncut = () => {
     axis.value = "";
     cut();
@@ -118,7 +156,7 @@ async function startForms(): Promise<void> {
     const title = verb === "improve" ? "Improve" : "Control";
     const form: MethodForm = new MethodForm(find<HTMLFormElement>(verb), title, methodOptions(contract, `${title}Options`), (options) => {
       hideProblem();
-      for (const other of forms) other.blame(undefined);
+      for (const other of forms) if (other !== form) other.blame(undefined);
       started = form;
       bench.run(verb, options);
     });
@@ -127,7 +165,7 @@ async function startForms(): Promise<void> {
   const format = find<HTMLSelectElement>("format");
   for (const name of formatsOf(contract)) format.append(element("option", { value: name }, name.toLowerCase().replace(/_/g, " ")));
   format.addEventListener("change", updateDownload);
-  for (const form of forms) form.enabled = bench.ready;
+  enableForms();
   find("download").addEventListener("click", (event) => {
     const path = bench.file(format.value);
     event.preventDefault();
@@ -136,7 +174,11 @@ async function startForms(): Promise<void> {
 }
 
 function reopen(): void {
-  bench.reopen().catch((error: unknown) => showProblem(problemText(error)));
+  giveUpSending();
+  bench
+    .reopen()
+    .catch((error: unknown) => showProblem(problemText(error)))
+    .finally(enableForms);
 }
 
 startToken(() => {
@@ -144,7 +186,15 @@ startToken(() => {
   reopen();
 });
 startTheme((background) => viewer.background(background));
+addEventListener("hashchange", () => {
+  const place = readPlace();
+  if (!place.session || bench.isAt(place)) return;
+  hideProblem();
+  reopen();
+});
+startProblems();
 startUpload();
+startSamples();
 startTools();
 startForms()
   .then(reopen)

@@ -1,4 +1,4 @@
-import { count, element, find } from "./dom";
+import { count, element, find, passFocus } from "./dom";
 
 const stages: Record<string, string> = {
   upload: "Uploading",
@@ -10,13 +10,13 @@ const stages: Record<string, string> = {
   measure: "Measuring the deviation",
 };
 
-/** A bar with what is done, and a button that ends it. */
+/** A bar with what is done, and a button that ends it. `next`: where the focus goes with that button gone. */
 export class ProgressBar {
   private readonly bar = element("progress", { max: 1, value: 0, "aria-label": "Progress" });
   private readonly words = element("span");
   private readonly box: HTMLElement;
 
-  constructor(private readonly place: HTMLElement, cancel: () => void) {
+  constructor(private readonly place: HTMLElement, private readonly next: () => HTMLElement, cancel: () => void) {
     const button = element("button", { type: "button", class: "quiet" }, "Cancel");
     button.addEventListener("click", cancel);
     this.box = element("div", { class: "progress" }, this.words, this.bar, button);
@@ -29,6 +29,7 @@ export class ProgressBar {
   }
 
   hide(): void {
+    passFocus(this.box, this.next());
     this.box.remove();
   }
 }

@@ -1,4 +1,4 @@
-import { count, find } from "./dom";
+import { count, find, passFocus } from "./dom";
 
 const steps = 1000;
 
@@ -36,6 +36,7 @@ export class ResolutionSlider {
   }
 
   off(): void {
+    passFocus(this.input, find("canvas"));
     this.input.disabled = true;
     this.output.textContent = "–";
   }

@@ -9,6 +9,8 @@ export interface Option {
   standard: string;
   /** "°", "units" (of the model), or nothing. */
   unit: string;
+  /** Bounds of a whole number's type. */
+  bounds: readonly [least: number, most: number];
 }
 
 interface Schema {
@@ -16,6 +18,8 @@ interface Schema {
   $ref?: string;
   description?: string;
   enum?: string[];
+  minimum?: number;
+  maximum?: number;
   properties?: Record<string, Schema>;
 }
 
@@ -46,7 +50,7 @@ function optionsOf(contract: Contract, message: string, before: string[]): Optio
     const description = plain(said.startsWith("As in ImproveOptions") ? (twin[name]?.description ?? said) : said);
     const target = schema.$ref?.split("/").at(-1) ?? "";
     const path = [...before, name];
-    const base = { path, help: description, standard: standardOf(description), unit: unitOf(name, description), choices: [] };
+    const base = { path, help: description, standard: standardOf(description), unit: unitOf(name, description), choices: [], bounds: [schema.minimum ?? 0, schema.maximum ?? Number.MAX_SAFE_INTEGER] as const };
     if (target === "Double") options.push({ ...base, kind: "number" });
     else if (schema.type === "integer") options.push({ ...base, kind: "whole" });
     else if (schema.type === "boolean") options.push({ ...base, kind: "flag" });

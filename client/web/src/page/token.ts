@@ -1,5 +1,5 @@
 import { access } from "../shared/access";
-import { find } from "./dom";
+import { find, passFocus } from "./dom";
 
 const key = "vsplit-token";
 
@@ -11,6 +11,7 @@ export function startToken(given: () => void): void {
     event.preventDefault();
     access.token = field.value.trim();
     sessionStorage.setItem(key, access.token);
+    passFocus(form, find("file"));
     form.hidden = true;
     given();
   });

@@ -145,6 +145,7 @@ export class Viewer {
   }
 
   private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return; // the browser's
     const around: Record<string, [number, number]> = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
     const zoom: Record<string, number> = { "+": 0.9, "=": 0.9, "-": 1.1 };
     const away = this.camera.position.clone().sub(this.controls.target);

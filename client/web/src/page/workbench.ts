@@ -2,10 +2,11 @@ import { fromJson, type JsonValue } from "@bufbuild/protobuf";
 import { RepresentationSchema, type Representation, type Session } from "../gen/vsplit/v1/meshing_pb";
 import type { ColourBy } from "../shared/colours";
 import { Problem, problemText } from "../shared/problem";
-import type { Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
-import { getQuality, getSession, meshPath } from "./api";
-import { readPlace, writePlace } from "./address";
-import { count, find } from "./dom";
+import type { Element, Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
+import { readPlace, writePlace, type Place } from "./address";
+import { deleteSession, getQuality, getSession, meshPath } from "./api";
+import { Colouring } from "./colouring";
+import { count, find, refill } from "./dom";
 import { legend } from "./legend";
 import { findingList, resultNotes, worstList } from "./lists";
 import { MeshWorker } from "./mesh_worker";
@@ -13,9 +14,12 @@ import { showProblem } from "./problems";
 import { ProgressBar, workPlace } from "./progress";
 import { qualityTable, spreadTable, stretchHistogram } from "./quality_panel";
 import { ResolutionSlider } from "./resolution";
-import type { Slot, Viewer } from "./viewer";
+import type { Slot, View, Viewer } from "./viewer";
 
 const worstFaces = 20;
+
+export type Verb = "improve" | "control";
+const runButton = (verb: Verb): HTMLElement => find(verb).querySelector<HTMLElement>("button[type=submit]")!;
 
 /** For measurements: what the last change of resolution took. */
 function stepText(patch: Patch): string {
@@ -26,6 +30,7 @@ function stepText(patch: Patch): string {
 export class Workbench {
   private session: Session | undefined;
   private name = "";
+  private sample: string | undefined;
   private made: Representation | undefined;
   private faces = 0;
   /** The resolution that the method was asked for: what it said is of that. */
@@ -34,17 +39,29 @@ export class Workbench {
   private diagonal = 1;
   private readonly figures: Partial<Record<Slot, Figures>> = {};
   private fresh = false;
-  private by: ColourBy = "stretch";
+  private verb: Verb = "improve";
+  private running = false;
+  private readonly colouring = new Colouring(() => this.recolour());
   private source = this.worker("source");
   private result = this.worker("result");
-  private readonly progress = new ProgressBar(workPlace(), () => this.result.tell({ kind: "cancel" }));
+  private readonly progress = new ProgressBar(workPlace(), () => runButton(this.verb), () => this.result.tell({ kind: "cancel" }));
   private readonly slider = new ResolutionSlider((faces) => this.order({ kind: "faces", faces }));
 
-  /** `changed`: when methods can be run or not. */
-  constructor(private readonly viewer: Viewer, private readonly changed: (ready: boolean, problem?: ProblemText) => void) {}
+  /** `changed`: when methods can be run or not. `opened`: when a session is, with the name of the sample that it has. */
+  constructor(
+    private readonly viewer: Viewer,
+    private readonly changed: (ready: boolean, problem?: ProblemText) => void,
+    private readonly opened: (sample: string | undefined) => void,
+  ) {}
 
+  /** Whether a method can be run. */
   get ready(): boolean {
-    return this.session?.source !== undefined;
+    return this.session !== undefined && !this.result.busy;
+  }
+
+  /** Whether it is what an address names; that need not say everything. */
+  isAt({ session, representation, faces }: Place): boolean {
+    return session === this.session?.id && [undefined, this.made?.id].includes(representation) && [undefined, this.faces].includes(faces);
   }
 
   /** What the address names, if it is still there. */
@@ -52,27 +69,37 @@ export class Workbench {
     const place = readPlace();
     if (!place.session) return;
     const session = await getSession(place.session);
-    this.open(session, place.name ?? "");
+    if (readPlace().session !== place.session) return; // another was opened meanwhile
+    this.open(session, place.name ?? "", place.sample);
     const made = session.representations.find((one) => one.id === place.representation) ?? session.representations.at(-1);
     if (!made) return;
     this.made = made;
     this.at = made.faces;
-    writePlace({ session: session.id, representation: made.id, faces: place.faces ?? made.faces, name: this.name });
+    this.writePlace(place.faces ?? made.faces);
     this.showNotes();
     this.order({ kind: "open", session: session.id, representation: made.id, faces: place.faces ?? made.faces, centre: this.centre });
   }
 
-  /** A session whose mesh was just uploaded. */
-  open(session: Session, name: string): void {
+  /** A session whose mesh was just uploaded, instead of the one before, which goes. */
+  replace(session: Session, name: string, sample?: string): void {
+    const before = this.session?.id;
+    this.open(session, name, sample);
+    // One that cannot be deleted ends when its time is over.
+    if (before) deleteSession(before).catch(() => undefined);
+  }
+
+  private open(session: Session, name: string, sample: string | undefined): void {
     if (!session.source) throw new Problem({ cause: "EMPTY_INPUT", detail: `session ${session.id} has no mesh; upload one` });
     this.source.end();
     this.result.end();
     this.source = this.worker("source");
     this.result = this.worker("result");
-    for (const worker of [this.source, this.result]) worker.tell({ kind: "colour", by: this.by });
     this.session = session;
+    this.colouring.clear();
     this.name = name;
+    this.sample = sample;
     this.made = undefined;
+    this.running = false;
     delete this.figures.source;
     delete this.figures.result;
     this.viewer.clear("source");
@@ -86,16 +113,19 @@ export class Workbench {
     this.diagonal = 2 * Math.hypot(...half);
     this.viewer.frame(half);
     this.source.tell({ kind: "source", path: meshPath(session.id, "", 0, "PLY"), centre: this.centre });
-    writePlace({ session: session.id, name });
+    this.writePlace();
     this.showSummary();
     this.showNotes();
     this.showQuality();
     void this.showWorst();
+    this.opened(sample);
     this.changed(true);
   }
 
-  run(verb: "improve" | "control", options: object): void {
+  run(verb: Verb, options: object): void {
     if (!this.session) return;
+    this.verb = verb;
+    this.running = true;
     const body: Record<string, unknown> = { options };
     // Control is for meshes that were improved; improve begins anew.
     if (verb === "control" && this.made) body["source"] = { representation: this.made.id, faces: this.faces };
@@ -106,14 +136,22 @@ export class Workbench {
   }
 
   colour(by: ColourBy): void {
-    this.by = by;
-    this.source.tell({ kind: "colour", by });
-    this.result.tell({ kind: "colour", by });
+    this.colouring.choose(by);
+  }
+
+  show(view: View): void {
+    this.colouring.show(view);
   }
 
   /** Where the mesh that is shown can be had as a file. */
   file(format: string): string | undefined {
     return this.session ? meshPath(this.session.id, this.made?.id ?? "", this.faces, format) : undefined;
+  }
+
+  private recolour(): void {
+    const { by, range } = this.colouring;
+    for (const worker of [this.source, this.result]) worker.tell({ kind: "colour", by, range });
+    if (this.session) find("legend").replaceChildren(legend(by, range));
   }
 
   private order(order: Order): void {
@@ -132,6 +170,7 @@ export class Workbench {
   private hear(slot: Slot, news: News): void {
     switch (news.kind) {
       case "patch":
+        this.colouring.take(slot, news.patch);
         if (slot === "source") {
           this.viewer.apply(slot, news.patch);
         } else {
@@ -143,14 +182,16 @@ export class Workbench {
         return;
       case "figures":
         this.figures[slot] = news.figures;
+        this.colouring.measured(slot, news.figures.sizes);
         this.showQuality();
-        if (slot === "result" || !this.made) find("legend").replaceChildren(legend(this.by, news.range));
         if (slot === "result" && this.made) this.settle();
         return;
       case "progress":
         performance.mark("vsplit method ended"); // unless another comes
         this.fresh = true;
         return this.progress.show(news.stage, news.fraction, news.faces);
+      case "place":
+        return this.fly("result", news.place, news.size);
       case "representation":
         return this.take(fromJson(RepresentationSchema, news.json as JsonValue));
       case "problem":
@@ -158,6 +199,7 @@ export class Workbench {
         return this.changed(this.ready, news.problem);
       case "idle":
         if (slot === "source" || this.result.busy) return;
+        this.running = false;
         find("stage").setAttribute("aria-busy", "false");
         this.progress.hide();
         if (this.made) this.slider.set(this.made.facesMin, this.made.facesMax, this.faces);
@@ -191,22 +233,35 @@ export class Workbench {
 
   /** The mesh stays as it is for now: the address names it, and its worst faces are asked for. */
   private settle(): void {
-    writePlace({ session: this.session!.id, representation: this.made!.id, faces: this.faces, name: this.name });
+    this.writePlace(this.faces);
     void this.showWorst();
+  }
+
+  private writePlace(faces?: number): void {
+    const { name, sample } = this;
+    writePlace({ session: this.session!.id, representation: this.made?.id, faces, name, sample });
   }
 
   private async showWorst(): Promise<void> {
     const session = this.session!.id, made = this.made?.id ?? "", faces = this.faces;
+    const isShown = (): boolean => session === this.session?.id && made === (this.made?.id ?? "") && (!made || faces === this.faces);
     try {
       const quality = await getQuality(session, made, faces, worstFaces);
-      if (session !== this.session?.id || made !== (this.made?.id ?? "") || (made && faces !== this.faces)) return;
-      find("worst").replaceChildren(worstList(quality.worstFaces, (place, size) => this.fly(made ? "result" : "source", place, size)));
+      if (!isShown()) return;
+      refill(find("worst"), worstList(quality.worstFaces, (place, size) => this.fly(made ? "result" : "source", place, size)));
     } catch (error) {
-      showProblem(problemText(error));
+      if (isShown()) showProblem(problemText(error));
     }
   }
 
+  /** To an element of the resolution that the method was asked for: it may not be there at others. */
+  private locate(element: Element): void {
+    if (this.running) showProblem({ cause: "BUSY", detail: "a method runs; the mesh stays as it is until its result comes" });
+    else this.order({ kind: "locate", faces: this.at, element });
+  }
+
   private fly(slot: Slot, place: Point, size: number): void {
+    find("canvas").dataset["flown"] = place.join(" ");
     this.viewer.fly(slot, place.map((v, axis) => v - this.centre[axis]!) as unknown as Point, size);
   }
 
@@ -218,8 +273,8 @@ export class Workbench {
 
   private showNotes(): void {
     const findings = findingList(this.session?.source?.findings ?? [], this.diagonal / 100, (place, size) => this.fly("source", place, size));
-    const notes = [...(this.made ? resultNotes(this.made, this.at) : []), ...findings];
-    find("notes").replaceChildren(...(notes.length > 0 ? notes : ["Nothing to report."]));
+    const notes = [...(this.made ? resultNotes(this.made, this.at, (element) => this.locate(element)) : []), ...findings];
+    refill(find("notes"), ...(notes.length > 0 ? notes : ["Nothing to report."]));
   }
 
   private showSummary(): void {

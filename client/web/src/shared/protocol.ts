@@ -1,4 +1,4 @@
-import type { ColourBy } from "./colours";
+import type { ColourBy, Range } from "./colours";
 
 /** What went wrong, as problem+json tells it. */
 export interface ProblemText {
@@ -9,6 +9,12 @@ export interface ProblemText {
 }
 
 export type Point = readonly [number, number, number];
+
+/** A face or vertex of a result, numbered as the server does: only those that are seen count. */
+export interface Element {
+  of: "face" | "vertex";
+  number: number;
+}
 
 /** Least, mean and largest of a figure; zeros where there is nothing. */
 export type Spread = readonly [min: number, mean: number, max: number];
@@ -25,6 +31,8 @@ export interface Figures {
   histogram: number[];
   /** Of faces: stretch, and longest edge; of vertices: edges. */
   spread: { stretch: Spread; size: Spread; valence: Spread };
+  /** Longest edges of faces: the least above 0, and the largest. */
+  sizes: Range;
 }
 
 /** Faces to draw anew: runs of them, and the bytes of all runs one after the other. Three corners a face, no index. */
@@ -37,6 +45,8 @@ export interface Patch {
   positions: Float32Array;
   /** 9 bytes a face. */
   colours: Uint8Array;
+  /** Longest edges of the faces of these runs: the least above 0, and the largest. */
+  sizes: Range;
   /** Faces that are seen. */
   visible: number;
   /** Milliseconds that the worker took, and the records it applied or undid. */
@@ -50,7 +60,9 @@ export type Order =
   | { kind: "method"; path: string; body: object; centre: Point }
   | { kind: "open"; session: string; representation: string; faces: number; centre: Point }
   | { kind: "faces"; faces: number }
-  | { kind: "colour"; by: ColourBy }
+  /** To the resolution that the element is of, and where it is there. */
+  | { kind: "locate"; faces: number; element: Element }
+  | { kind: "colour"; by: ColourBy; range: Range }
   | { kind: "token"; token: string }
   | { kind: "cancel" };
 
@@ -58,7 +70,8 @@ export type Order =
 export type News =
   | { kind: "progress"; stage: string; fraction: number; faces: number }
   | { kind: "patch"; patch: Patch }
-  | { kind: "figures"; figures: Figures; range: readonly [number, number] }
+  | { kind: "figures"; figures: Figures }
+  | { kind: "place"; place: Point; size: number }
   | { kind: "representation"; json: unknown }
   | { kind: "problem"; problem: ProblemText }
   | { kind: "idle" };

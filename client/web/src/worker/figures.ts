@@ -1,4 +1,5 @@
 import type { Figures, Spread } from "../shared/protocol";
+import { Extent } from "./extent";
 import { FaceShape, isSeen, valences, type Surface } from "./surface";
 
 const bins = 20;
@@ -27,6 +28,7 @@ export function measure(surface: Surface): Figures {
   const shape = new FaceShape();
   const histogram = new Array<number>(bins).fill(0);
   const stretch = new Tally(), size = new Tally(), valence = new Tally();
+  const sizes = new Extent();
   let faces = 0, below = 0;
   for (let f = 0; f < surface.faceCount; ++f) {
     if (!isSeen(surface, f)) continue;
@@ -34,6 +36,7 @@ export function measure(surface: Surface): Figures {
     ++faces;
     stretch.add(shape.stretch);
     size.add(shape.size);
+    sizes.add(shape.size);
     if (shape.stretch < floor) ++below;
     ++histogram[Math.min(bins - 1, Math.floor(shape.stretch * bins))]!;
   }
@@ -41,5 +44,5 @@ export function measure(surface: Surface): Figures {
   for (let v = surface.ghosts; v < surface.vertexCount; ++v) if (count[v]! > 0) valence.add(count[v]!);
   const spread = { stretch: stretch.spread, size: size.spread, valence: valence.spread };
   const [stretchMin, stretchMean] = spread.stretch;
-  return { faces, stretchMin, stretchMean, facesBelow02: below, sizeMax: spread.size[2], valenceMax: spread.valence[2], histogram, spread };
+  return { faces, stretchMin, stretchMean, facesBelow02: below, sizeMax: spread.size[2], valenceMax: spread.valence[2], histogram, spread, sizes: sizes.range };
 }

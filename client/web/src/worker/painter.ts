@@ -1,5 +1,6 @@
-import { Ramp, rangeOf, type ColourBy } from "../shared/colours";
+import type { Ramp } from "../shared/colours";
 import type { Patch, Point } from "../shared/protocol";
+import { Extent } from "./extent";
 import { FaceShape, isSeen, valences, type Surface } from "./surface";
 
 /** Runs closer to each other than this are drawn as one: a call costs more than some faces. */
@@ -7,30 +8,22 @@ const gap = 32;
 /** From this share of all faces on everything is drawn anew. */
 const most = 0.5;
 
+type Painted = Pick<Patch, "runs" | "positions" | "colours" | "sizes">;
+
 /** Makes what is drawn out of faces. */
 export class Painter {
-  private by: ColourBy = "stretch";
-  private ramp = new Ramp("stretch", [0, 1]);
   private valence: Uint16Array = new Uint16Array(0);
   private readonly shape = new FaceShape();
+  private sizes = new Extent();
 
-  constructor(private readonly centre: Point) {}
+  constructor(private readonly centre: Point, public ramp: Ramp) {}
 
-  get range(): readonly [number, number] {
-    return this.ramp.range;
-  }
-
-  colourBy(by: ColourBy, sizeMax: number): void {
-    this.by = by;
-    this.ramp = new Ramp(by, rangeOf(by, sizeMax));
-  }
-
-  whole(surface: Surface): Pick<Patch, "runs" | "positions" | "colours"> {
+  whole(surface: Surface): Painted {
     return this.paint(surface, surface.faceCount > 0 ? [0, surface.faceCount] : []);
   }
 
   /** `faces` in ascending order. */
-  some(surface: Surface, faces: Uint32Array): Pick<Patch, "runs" | "positions" | "colours"> {
+  some(surface: Surface, faces: Uint32Array): Painted {
     if (faces.length > most * surface.faceCount) return this.whole(surface);
     const runs: number[] = [];
     for (const face of faces) {
@@ -41,8 +34,9 @@ export class Painter {
     return this.paint(surface, runs);
   }
 
-  private paint(surface: Surface, runs: number[]): Pick<Patch, "runs" | "positions" | "colours"> {
-    if (this.by === "valence") this.valence = valences(surface);
+  private paint(surface: Surface, runs: number[]): Painted {
+    if (this.ramp.by === "valence") this.valence = valences(surface);
+    this.sizes = new Extent();
     let faces = 0;
     for (let n = 1; n < runs.length; n += 2) faces += runs[n]!;
     const positions = new Float32Array(9 * faces);
@@ -53,17 +47,20 @@ export class Painter {
         if (isSeen(surface, face)) this.paintFace(surface, face, positions, colours, at);
       }
     }
-    return { runs: Uint32Array.from(runs), positions, colours };
+    return { runs: Uint32Array.from(runs), positions, colours, sizes: this.sizes.range };
   }
 
   private paintFace(surface: Surface, face: number, positions: Float32Array, colours: Uint8Array, at: number): void {
     const { corners, positions: from } = surface;
     this.shape.measure(surface, face);
-    const value = this.by === "size" ? this.shape.size : this.shape.stretch;
+    const { size, stretch } = this.shape;
+    this.sizes.add(size);
+    const { by } = this.ramp;
+    const value = by === "size" ? size : stretch;
     for (let c = 0; c < 3; ++c) {
       const vertex = corners[3 * face + c]!;
       for (let axis = 0; axis < 3; ++axis) positions[at + 3 * c + axis] = from[3 * vertex + axis]! - this.centre[axis]!;
-      this.ramp.put(this.by === "valence" ? this.valence[vertex]! : value, colours, at + 3 * c);
+      this.ramp.put(by === "valence" ? this.valence[vertex]! : value, colours, at + 3 * c);
     }
   }
 }

@@ -4,13 +4,15 @@ import { ErrorInfoSchema } from "../gen/google/rpc/error_details_pb";
 import type { Status } from "../gen/google/rpc/status_pb";
 import { RecordEncoding, RepresentationSchema, type Representation } from "../gen/vsplit/v1/meshing_pb";
 import { access, fields } from "../shared/access";
-import type { ColourBy } from "../shared/colours";
+import { nothing, Ramp } from "../shared/colours";
 import { fail, problemOf, problemText, Problem } from "../shared/problem";
-import type { News, Order, Point } from "../shared/protocol";
+import type { Element, News, Order, Patch, Point } from "../shared/protocol";
 import { measure } from "./figures";
 import { eventsOf } from "./frames";
 import { BaseParts, type HeldMesh } from "./held_mesh";
+import { Orders } from "./orders";
 import { Painter } from "./painter";
+import { placeOf } from "./places";
 import { readPly } from "./ply";
 import type { Surface } from "./surface";
 
@@ -28,16 +30,23 @@ const tell = (news: News, transfer: Transferable[] = []): void => self.postMessa
 let surface: Surface | undefined;
 let held: HeldMesh | undefined;
 let opened: { session: string; representation: string } | undefined;
-let painter = new Painter([0, 0, 0]);
-let by: ColourBy = "stretch";
+let ramp = new Ramp("stretch", [0, 1]);
+let painter = new Painter([0, 0, 0], ramp);
 let running: AbortController | undefined;
 let timer: ReturnType<typeof setTimeout> | undefined;
 
+/** A patch, and figures when no other has come for a moment. */
 function draw(whole: boolean, begun: number, recordsBefore: number): void {
+  tellPatch(whole, begun, recordsBefore);
+  clearTimeout(timer);
+  timer = setTimeout(tellFigures, figuresAfter);
+}
+
+function tellPatch(whole: boolean, begun: number, recordsBefore: number): void {
   if (!surface) return;
   const changes = held?.takeChanges();
   const painted = whole || !changes ? painter.whole(surface) : painter.some(surface, changes);
-  const patch = {
+  const patch: Patch = {
     ...painted,
     slots: surface.faceCount,
     visible: held ? held.visible : surface.faceCount,
@@ -45,19 +54,10 @@ function draw(whole: boolean, begun: number, recordsBefore: number): void {
     records: held ? Math.abs(held.mesh.records - recordsBefore) : 0,
   };
   tell({ kind: "patch", patch }, [painted.runs.buffer, painted.positions.buffer, painted.colours.buffer]);
-  clearTimeout(timer);
-  timer = setTimeout(tellFigures, figuresAfter);
 }
 
 function tellFigures(): void {
-  if (!surface) return;
-  const figures = measure(surface);
-  if (by === "size" && figures.sizeMax !== painter.range[1]) {
-    painter.colourBy(by, figures.sizeMax);
-    draw(true, performance.now(), held?.mesh.records ?? 0);
-    clearTimeout(timer);
-  }
-  tell({ kind: "figures", figures, range: painter.range });
+  if (surface) tell({ kind: "figures", figures: measure(surface) });
 }
 
 function problemIn(status: Status): Problem {
@@ -87,8 +87,7 @@ async function take(path: string, body: object, centre: Point, signal: AbortSign
       if (!mesh) continue;
       base = new BaseParts();
       hold(mesh);
-      painter = new Painter(centre);
-      painter.colourBy(by, by === "size" ? measure(mesh.mesh).sizeMax : 0);
+      painter = new Painter(centre, ramp);
       draw(true, begun, 0);
     }
     if (event.case === "recordBlock") {
@@ -122,11 +121,12 @@ async function stream(path: string, body: object, session: string, centre: Point
 function goBack(before: { surface: Surface | undefined; held: HeldMesh | undefined; painter: Painter }): void {
   ({ surface, held, painter } = before);
   if (surface) {
-    painter.colourBy(by, by === "size" ? measure(surface).sizeMax : 0);
+    painter.ramp = ramp;
     return draw(true, performance.now(), held?.mesh.records ?? 0);
   }
   clearTimeout(timer);
-  tell({ kind: "patch", patch: { slots: 0, runs: new Uint32Array(), positions: new Float32Array(), colours: new Uint8Array(), visible: 0, milliseconds: 0, records: 0 } });
+  const empty = { runs: new Uint32Array(), positions: new Float32Array(), colours: new Uint8Array(), sizes: nothing };
+  tell({ kind: "patch", patch: { ...empty, slots: 0, visible: 0, milliseconds: 0, records: 0 } });
 }
 
 function show(faces: number): void {
@@ -147,13 +147,19 @@ async function goTo(faces: number, centre: Point): Promise<void> {
   await stream(`/v1/sessions/${opened.session}:setResolution`, body, opened.session, centre);
 }
 
+/** Says nothing where the mesh is at another resolution in the end: another was asked for meanwhile. */
+async function locate(faces: number, element: Element, centre: Point): Promise<void> {
+  await goTo(faces, centre);
+  const found = held?.visible === faces ? placeOf(held.mesh, element) : undefined;
+  if (found) tell({ kind: "place", ...found });
+}
+
 async function loadSource(path: string, centre: Point): Promise<void> {
   const response = await fetch(path, { headers: fields() });
   if (!response.ok) throw await problemOf(response);
   const begun = performance.now();
   surface = readPly(await response.arrayBuffer());
-  painter = new Painter(centre);
-  painter.colourBy(by, by === "size" ? measure(surface).sizeMax : 0);
+  painter = new Painter(centre, ramp);
   draw(true, begun, 0);
 }
 
@@ -170,11 +176,11 @@ async function obey(order: Order): Promise<void> {
       return stream(`/v1/sessions/${order.session}:setResolution`, { representation: order.representation, faces: order.faces }, order.session, centre);
     case "faces":
       return goTo(order.faces, centre);
+    case "locate":
+      return locate(order.faces, order.element, centre);
     case "colour":
-      by = order.by;
-      if (!surface) return;
-      painter.colourBy(by, by === "size" ? measure(surface).sizeMax : 0);
-      return draw(true, performance.now(), held?.mesh.records ?? 0);
+      painter.ramp = ramp = new Ramp(order.by, order.range);
+      return tellPatch(true, performance.now(), held?.mesh.records ?? 0);
     case "token":
       access.token = order.token;
       return;
@@ -183,11 +189,30 @@ async function obey(order: Order): Promise<void> {
   }
 }
 
-self.onmessage = async ({ data }: MessageEvent<Order>) => {
+async function carryOut(order: Order): Promise<void> {
   try {
-    await obey(data);
+    await obey(order);
   } catch (error) {
     tell({ kind: "problem", problem: problemText(error) });
   }
   tell({ kind: "idle" });
+}
+
+const orders = new Orders();
+let due = false;
+
+/** One order a turn of the event loop: those that came while it was busy come in before the next is taken. */
+function carryOutNext(): void {
+  if (due || orders.empty) return;
+  due = true;
+  setTimeout(() => {
+    due = false;
+    void carryOut(orders.take()!);
+    carryOutNext();
+  });
+}
+
+self.onmessage = ({ data }: MessageEvent<Order>) => {
+  for (let dropped = orders.push(data); dropped > 0; --dropped) tell({ kind: "idle" });
+  carryOutNext();
 };

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -19,6 +20,9 @@ struct ReadOptions {
     double weld = 0;                       ///< length, model units, >= 0; 0 merges exactly equal vertices. See `weld`.
     std::uint32_t max_faces = 50'000'000;  ///< LIMIT_EXCEEDED beyond; checked against headers before memory is taken
     std::optional<LengthUnit> unit{};      ///< of the file's lengths, where it does not say it
+    /// Asked with the number of faces before a file is put together that names the same faces at several places (3MF), as its size
+    /// does not tell. An error ends the reading.
+    std::function<Status(std::uint64_t faces)> make_room{};
 };
 
 /// A mesh as it was in the file, welded. Polygons are cut into fans of triangles.
