@@ -76,7 +76,8 @@ void add_input(CLI::App& verb, Arguments& a, const char* what) {
         "Mend a broken mesh: none says what stands in the way; safe cuts apart and turns faces; full stitches cracks and fills "
         "small holes too. Default: nothing is mended")
         ->type_name("R");
-    add_unit(verb, "--unit", a.unit, "Unit of the lengths in IN, where it does not say it: um, mm, cm, m, in or ft. 3MF says it; default: not known");
+    add_unit(verb, "--unit", a.unit,
+             "Unit of the lengths in IN, where it does not say it: um, mm, cm, m, in or ft. 3MF says it; default: not known");
 }
 
 void add_output(CLI::App& verb, Arguments& a) {
@@ -359,10 +360,10 @@ void add_resolution_verb(CLI::App& app, Arguments& a) {
 
 /// What features and remove-features share.
 void add_feature_search(CLI::App& verb, Arguments& a) {
-    add_input(
-        verb, a,
-        "Closed mesh (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU, 3MF; told from its bytes) or .vsplit file at the resolution it "
-        "was made for");
+    add_input(verb, a,
+              "Closed mesh (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU, 3MF; told from its bytes) or .vsplit file at the "
+              "resolution it "
+              "was made for");
     verb.add_option("--angle", a.removal.search.angle,
                     "Edges that bend by more part the surface; degrees, > 0, < 180. Default 40: holes of fewer than 9 sides are "
                     "not found")

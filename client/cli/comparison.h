@@ -16,7 +16,7 @@ namespace vsplit::cli {
 struct Comparison {
     std::uint32_t faces = 0;
     std::uint32_t faces_against = 0;
-    double diagonal = 0;  ///< of the other mesh's bounding box
+    double diagonal = 0;               ///< of the other mesh's bounding box
     std::optional<LengthUnit> unit{};  ///< of all lengths
     Deviation surface;
     CreaseDeviation creases;

@@ -101,8 +101,8 @@ std::string violation_messages(const v1::Representation& made) {
     std::string text;
     for (const v1::Violation& violation : made.violations()) {
         text += "vsplit: bound not met: " + violation.bound() + " " + figure_of_bound(violation, violation.limit(), unit) + ": " +
-                broken_by(violation) + named(violation) + ", worst " + figure_of_bound(violation, violation.worst(), unit) + "; " +
-                violation.reason() + "\n";
+                broken_by(violation) + named(violation) + ", worst " + figure_of_bound(violation, violation.worst(), unit) +
+                "; " + violation.reason() + "\n";
     }
     return text;
 }

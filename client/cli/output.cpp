@@ -113,7 +113,8 @@ Status check_units(const std::vector<Output>& outputs, std::optional<LengthUnit>
 Status write_outputs(const Outcome& outcome, const std::vector<Output>& outputs, const Arguments& arguments) {
     for (const Output& output : outputs) {
         if (output.format && !outcome.mesh) continue;  // the server sent the file
-        Status written = output.format ? write_mesh_output(outcome, output, arguments) : write_representation(outcome, output.path);
+        Status written =
+            output.format ? write_mesh_output(outcome, output, arguments) : write_representation(outcome, output.path);
         if (!written) return written;
     }
     return Done{};

@@ -104,7 +104,8 @@ std::string text_of(const v1::MeshSummary& m, bool detailed, const std::string& 
     text += line("closed", closed_or_why(m));
     text += line("components", grouped(m.components()));
     if (m.closed()) text += line("genus", std::to_string(m.genus()));
-    if (m.bounding_box().has_min()) text += line("box", point(m.bounding_box().min()) + " to " + point(m.bounding_box().max()) + unit);
+    if (m.bounding_box().has_min())
+        text += line("box", point(m.bounding_box().min()) + " to " + point(m.bounding_box().max()) + unit);
     text += quality_lines(m.quality(), unit);
     for (const v1::Finding& finding : m.findings()) text += line("finding", finding.kind() + ": " + finding.message());
     return text + details(m.quality(), detailed, unit);
@@ -204,8 +205,8 @@ std::string kind_name(v1::ShapeFeature::Kind kind) {
 
 std::string text_of(const v1::ListFeaturesResponse& list, bool /*detailed*/, const std::string& unit) {
     if (list.features().empty()) return "no round hole or boss is recognised\n";
-    std::string text = right("id", 6) + "  " + left("kind", 14) + right(headed("diameter", unit), 12) + right(headed("depth", unit), 12) + right("faces", 8) +
-                       "  " + headed("centre", unit) + "; axis\n";
+    std::string text = right("id", 6) + "  " + left("kind", 14) + right(headed("diameter", unit), 12) +
+                       right(headed("depth", unit), 12) + right("faces", 8) + "  " + headed("centre", unit) + "; axis\n";
     for (const v1::ShapeFeature& f : list.features()) {
         text += right(std::to_string(f.id()), 6) + "  " + left(kind_name(f.kind()), 14) + right(figure(f.diameter()), 12) +
                 right(figure(f.depth()), 12) + right(grouped(f.face_count()), 8) + "  " + point(f.centre()) + "; " +
@@ -216,8 +217,9 @@ std::string text_of(const v1::ListFeaturesResponse& list, bool /*detailed*/, con
 
 std::string text_of(const v1::RemoveFeaturesResponse& done, bool detailed, const std::string& unit) {
     std::string text = line("removed", counted(static_cast<std::uint64_t>(done.removed_size()), "feature", "features"));
-    text += line("new faces", grouped(done.source().faces() - done.first_new_face()) + ", from " +
-                                  std::to_string(done.first_new_face()) + " on, aimed at a size of " + figure(done.size()) + unit);
+    text +=
+        line("new faces", grouped(done.source().faces() - done.first_new_face()) + ", from " +
+                              std::to_string(done.first_new_face()) + " on, aimed at a size of " + figure(done.size()) + unit);
     for (const v1::KeptFeature& kept : done.kept()) text += line("kept", std::to_string(kept.id()) + ": " + kept.reason());
     return text + text_of(done.source(), detailed, unit);
 }

@@ -59,8 +59,8 @@ Expected<DownloadSource::File> write_file(const Wanted& wanted, const std::files
         mesh = std::move(converted);
     }
     if (*nodes) file.nodes_on_chord = (*nodes)->on_chord;
-    Expected<std::string> text = *nodes ? write_second_order(*mesh, **nodes, wanted.format)
-                                        : Expected<std::string>(write_mesh(*mesh, wanted.format, to));
+    Expected<std::string> text =
+        *nodes ? write_second_order(*mesh, **nodes, wanted.format) : Expected<std::string>(write_mesh(*mesh, wanted.format, to));
     if (!text) return text.error();
     file.digest = guard::hex_digits(guard::digest_of(*text));
     if (Expected<service::FileMapping> mapped = map_file(*text, directory); mapped) {

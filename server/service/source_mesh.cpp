@@ -31,7 +31,8 @@ Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byt
         if (!room) return room.error();
         std::vector<MemoryBudget::Share> more;
         const auto make_room = [&](std::uint64_t faces) -> Status {
-            Expected<MemoryBudget::Share> share = budget.reserve(memory_to_read(faces, settings.repair.has_value()), "reading this mesh");
+            Expected<MemoryBudget::Share> share =
+                budget.reserve(memory_to_read(faces, settings.repair.has_value()), "reading this mesh");
             if (!share) return share.error();
             more.push_back(*std::move(share));
             return Done{};

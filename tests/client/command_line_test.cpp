@@ -250,8 +250,9 @@ TEST_F(CommandLineTest, ABoundThatCannotBeMetIsStatusTwo) {
 TEST_F(CommandLineTest, UnitsAreStatedKeptAndConverted) {
     const std::string frame = mesh_file("frame.off", test::cube_frame());
     EXPECT_EQ(json_of<v1::MeshSummary>(run({"info", frame, "--json"})).unit(), v1::LENGTH_UNIT_UNSPECIFIED);
-    const CommandResult made = run({"improve", frame, "--subdivide", "0.3", "--faces", "1000", "--unit", "in", "--output-unit", "mm", "--json",
-                                    "-o", file("frame.vsplit"), "-o", file("frame.3mf"), "-o", file("frame.ply")});
+    const CommandResult made =
+        run({"improve", frame, "--subdivide", "0.3", "--faces", "1000", "--unit", "in", "--output-unit", "mm", "--json", "-o",
+             file("frame.vsplit"), "-o", file("frame.3mf"), "-o", file("frame.ply")});
     EXPECT_EQ(made.exit_status, 0) << made.err;
     EXPECT_EQ(json_of<v1::Representation>(made).unit(), v1::INCH);
     const auto told = read_mesh_file(file("frame.3mf"), {});

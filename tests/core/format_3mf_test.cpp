@@ -142,28 +142,29 @@ TEST(Format3mfTest, ItemsAndComponentsGoWhereTheyArePut) {
         must_read(file(object(1, "") + object(2, "", turned),
                        "<item objectid=\"1\"/>\n<item objectid=\"2\" transform=\"2 0 0 0 2 0 0 0 2 0 0 100\"/>\n"));
     ASSERT_EQ(result.mesh.face_count(), 8U);
-    const std::vector<Vec3> expected = {{0, 0, 0},  {1, 0, 0},    {0, 1, 0},    {0, 0, 1},
+    const std::vector<Vec3> expected = {{0, 0, 0},    {1, 0, 0},    {0, 1, 0},    {0, 0, 1},
                                         {20, 0, 100}, {20, 2, 100}, {18, 0, 100}, {20, 0, 102}};
     EXPECT_EQ(result.mesh.positions, expected);
     EXPECT_EQ(enclosed_volume(result.mesh), 1.0 / 6 + 8.0 / 6);
 }
 
 TEST(Format3mfTest, MirroredObjectsLookOutside) {
-    const ReadResult result =
-        must_read(file(object(1, ""), "<item objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 0 0 0\"/>"));
+    const ReadResult result = must_read(file(object(1, ""), "<item objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 0 0 0\"/>"));
     EXPECT_EQ(enclosed_volume(result.mesh), 1.0 / 6);
 }
 
 TEST(Format3mfTest, ObjectsAreRegionsUnderTheirNames) {
-    const std::string both = "<components><component objectid=\"1\"/><component objectid=\"2\" transform=\"1 0 0 0 1 0 0 0 1 5 0 "
-                             "0\"/></components>";
+    const std::string both =
+        "<components><component objectid=\"1\"/><component objectid=\"2\" transform=\"1 0 0 0 1 0 0 0 1 5 0 "
+        "0\"/></components>";
     const std::string objects = object(1, "name=\"bolt &amp; nut\"") + object(2, "") + object(3, "name=\"pair\"", both);
-    const TriangleMesh mesh =
-        must_read(file(objects, "<item objectid=\"3\"/><item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 9 0 0\"/>"
-                                "<item objectid=\"2\" transform=\"1 0 0 0 1 0 0 0 1 7 0 0\"/>"))
-            .mesh;
+    const TriangleMesh mesh = must_read(file(objects,
+                                             "<item objectid=\"3\"/><item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 9 0 0\"/>"
+                                             "<item objectid=\"2\" transform=\"1 0 0 0 1 0 0 0 1 7 0 0\"/>"))
+                                  .mesh;
     EXPECT_EQ(mesh.regions, (std::vector<std::uint32_t>{1, 1, 1, 1, 2, 2, 2, 2, 1, 1, 1, 1, 3, 3, 3, 3}));
-    EXPECT_EQ(members(mesh), (Members{{"bolt & nut", {0, 1, 2, 3, 8, 9, 10, 11}}, {"pair", {4, 5, 6, 7}}, {"object_2", {12, 13, 14, 15}}}));
+    EXPECT_EQ(members(mesh),
+              (Members{{"bolt & nut", {0, 1, 2, 3, 8, 9, 10, 11}}, {"pair", {4, 5, 6, 7}}, {"object_2", {12, 13, 14, 15}}}));
     EXPECT_TRUE(must_read(file(object(1, "name=\"alone\""), "<item objectid=\"1\"/>")).mesh.regions.empty());
 }
 
@@ -184,13 +185,16 @@ TEST(Format3mfTest, TriangleSetsOverlapAndAreNamedTwice) {
 
 TEST(Format3mfTest, ModelsInSeveralFiles) {
     // As slicers write them: the root is wherever the relationships say, objects are in files of their own.
-    const std::string production = "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" requiredextensions=\"p\"";
-    const std::string root = model(
-        object(8, "name=\"whole\"", "<components><component p:path=\"/3D/Objects/a.model\" objectid=\"1\"/></components>"),
-        "<item objectid=\"8\"/><item objectid=\"1\" p:path=\"/3D/objects/A.model\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"/>", production);
+    const std::string production =
+        "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" requiredextensions=\"p\"";
+    const std::string root =
+        model(object(8, "name=\"whole\"", "<components><component p:path=\"/3D/Objects/a.model\" objectid=\"1\"/></components>"),
+              "<item objectid=\"8\"/><item objectid=\"1\" p:path=\"/3D/objects/A.model\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"/>",
+              production);
     const Files files = {
-        {"_rels/.rels", "<Relationships><Relationship Target=\"/other.png\" Type=\"thumbnail\"/><Relationship Id=\"r\" "
-                        "Target=\"/3D/root.model\" Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>"},
+        {"_rels/.rels",
+         "<Relationships><Relationship Target=\"/other.png\" Type=\"thumbnail\"/><Relationship Id=\"r\" "
+         "Target=\"/3D/root.model\" Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>"},
         {"3D/root.model", root},
         {"3D/Objects/a.model", model(object(1, ""), "")}};
     const TriangleMesh mesh = must_read(archive_of(files)).mesh;
@@ -211,8 +215,8 @@ TEST(Format3mfTest, OtherArchivesAndOtherXml) {
     EXPECT_THAT(zip.message, HasSubstr("zip archive without a 3MF model"));
     EXPECT_EQ(error_of(archive_of({{"3D/3dmodel.model", "<svg/>"}})).cause, Cause::kUnknownFormat);
     EXPECT_EQ(error_of(archive_of({{"3D/3dmodel.model", "no tag"}})).cause, Cause::kUnknownFormat);
-    const Error beams = error_of(file(object(1, ""), "<item objectid=\"1\"/>",
-                                      "xmlns:v=\"http://example.org/voxels\" requiredextensions=\"v\""));
+    const Error beams =
+        error_of(file(object(1, ""), "<item objectid=\"1\"/>", "xmlns:v=\"http://example.org/voxels\" requiredextensions=\"v\""));
     EXPECT_EQ(beams.cause, Cause::kUnsupported);
     EXPECT_THAT(beams.message, HasSubstr("http://example.org/voxels"));
 }

@@ -184,7 +184,8 @@ TEST(XmlStreamTest, NamesAreEscapedAndComeBack) {
     EXPECT_EQ(xml_escaped("\xED\xA0\x80").size(), 6U) << "half a surrogate is no character";
     EXPECT_EQ(xml_escaped(std::string("a\nb\0c", 5)), "a_b_c");
     EXPECT_EQ(xml_unescaped("&#65;&#x42;&apos;&#x20AC;"), "AB'\xE2\x82\xAC");
-    for (const std::string left : {"&", "&;", "&nothing;", "&#xD800;", "&#1114112;", "&#x;", "a &b"}) EXPECT_EQ(xml_unescaped(left), left);
+    for (const std::string left : {"&", "&;", "&nothing;", "&#xD800;", "&#1114112;", "&#x;", "a &b"})
+        EXPECT_EQ(xml_unescaped(left), left);
 }
 
 }  // namespace

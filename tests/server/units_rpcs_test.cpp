@@ -115,7 +115,8 @@ TEST(UnitsRpcsTest, DownloadsAreConverted) {
     EXPECT_EQ(read(told.file).mesh, converted);
     EXPECT_EQ(told.first.content_type(), "model/3mf");
     EXPECT_EQ(told.first.file_name(), "mesh-320.3mf");
-    EXPECT_EQ(read(download(server.stub(), download_in(session, v1::LENGTH_UNIT_UNSPECIFIED, v1::THREE_MF)).file).unit, LengthUnit::kInch);
+    EXPECT_EQ(read(download(server.stub(), download_in(session, v1::LENGTH_UNIT_UNSPECIFIED, v1::THREE_MF)).file).unit,
+              LengthUnit::kInch);
 
     v1::DownloadMeshRequest curved = download_in(session, v1::LENGTH_UNIT_UNSPECIFIED, v1::INP);
     curved.set_order(2);

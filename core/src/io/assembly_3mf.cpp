@@ -10,6 +10,7 @@
 #include "io/mesh_builder.h"
 #include "io/read_error.h"
 #include "io/text_lines.h"
+#include "vsplit/io/read_mesh.h"
 
 namespace vsplit {
 namespace {
@@ -48,8 +49,8 @@ Placement3mf combined(const std::optional<Placement3mf>& outer, const std::optio
     return {o.linear * i.linear, o.linear * i.shift + o.shift};
 }
 
-/// The combinations of an object's triangle sets that faces are in: cells, numbered in order of their first face; 0 are the faces in
-/// no set.
+/// The combinations of an object's triangle sets that faces are in: cells, numbered in order of their first face; 0 are the faces
+/// in no set.
 struct SetCells {
     std::uint32_t count = 1;
     std::vector<std::uint32_t> of_face;
@@ -134,7 +135,8 @@ private:
         const auto key = std::pair(upper_case(part), reference.object);
         const auto found = by_id_.find(key);
         if (found != by_id_.end() && found->second < before) return found->second;
-        const std::string which = "object " + std::to_string(reference.object) + (reference.part.empty() ? "" : " of " + reference.part);
+        const std::string which =
+            "object " + std::to_string(reference.object) + (reference.part.empty() ? "" : " of " + reference.part);
         return error(model, reference.line, Cause::kMalformedInput,
                      which + (found == by_id_.end() ? " is not defined" : " is not defined before it is used"));
     }
@@ -165,7 +167,8 @@ private:
         if (all.depth > kDeepest + 1)
             return read_error(Cause::kLimitExceeded, place, "components are over " + std::to_string(kDeepest) + " deep");
         if (all.vertices > kMaxVertices)
-            return read_error(Cause::kLimitExceeded, place, "the build comes to over " + std::to_string(kMaxVertices) + " vertices");
+            return read_error(Cause::kLimitExceeded, place,
+                              "the build comes to over " + std::to_string(kMaxVertices) + " vertices");
         if (Status few = check_face_limit(all.faces, options_.max_faces, place); !few) return few;
         return options_.make_room ? options_.make_room(all.faces) : Status(Done{});
     }
@@ -180,7 +183,8 @@ private:
         }
         for (std::size_t i = 0; i < node.components.size(); ++i) {
             const std::optional<Placement3mf>& inner = object.components[i].placement;
-            const std::optional<Placement3mf> both = inner || placement ? std::optional(combined(placement, inner)) : std::nullopt;
+            const std::optional<Placement3mf> both =
+                inner || placement ? std::optional(combined(placement, inner)) : std::nullopt;
             if (Status placed = place(node.components[i], both, called, line); !placed) return placed;
         }
         return Done{};
@@ -274,7 +278,7 @@ private:
     std::vector<Node> nodes_;
     std::map<std::pair<std::string, std::uint64_t>, std::size_t> by_id_;  // of those linked
     TriangleMesh mesh_;
-    std::map<std::size_t, SetCells> cells_;                                  // of nodes with a mesh
+    std::map<std::size_t, SetCells> cells_;                                // of nodes with a mesh
     std::map<std::pair<std::size_t, std::string>, std::uint32_t> begins_;  // first region of a node under a name
     std::uint32_t regions_ = 0;
     std::map<std::pair<std::string, bool>, std::size_t> set_numbers_;

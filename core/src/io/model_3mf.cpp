@@ -73,7 +73,8 @@ private:
             return error(tag.line, Cause::kUnknownFormat, "expected a tag <model>, found <" + std::string(tag.name) + ">");
         begun_ = true;
         if (const std::string_view unit = tag.attribute("unit"); !unit.empty()) {
-            const auto* const known = std::find_if(kUnits.begin(), kUnits.end(), [unit](const auto& u) { return u.first == unit; });
+            const auto* const known =
+                std::find_if(kUnits.begin(), kUnits.end(), [unit](const auto& u) { return u.first == unit; });
             if (known == kUnits.end()) {
                 return error(tag.line, Cause::kMalformedInput,
                              "expected a unit (micron, millimeter, centimeter, inch, foot, meter), " + found(unit));
@@ -84,8 +85,9 @@ private:
         for (std::string_view prefix = next_word(required); !prefix.empty(); prefix = next_word(required)) {
             const std::string_view extension = tag.attribute("xmlns:" + std::string(prefix));
             if (std::find(kKnownExtensions.begin(), kKnownExtensions.end(), extension) != kKnownExtensions.end()) continue;
-            return error(tag.line, Cause::kUnsupported,
-                         "the file requires an extension of 3MF that is not read: " + quoted(extension.empty() ? prefix : extension));
+            return error(
+                tag.line, Cause::kUnsupported,
+                "the file requires an extension of 3MF that is not read: " + quoted(extension.empty() ? prefix : extension));
         }
         return Done{};
     }

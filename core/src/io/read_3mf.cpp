@@ -9,6 +9,7 @@
 #include "io/readers.h"
 #include "io/xml_stream.h"
 #include "io/zip_reader.h"
+#include "vsplit/io/read_mesh.h"
 
 namespace vsplit {
 namespace {
@@ -29,7 +30,7 @@ public:
     Expected<XmlStream> open(const ZipEntry& entry) {
         if (entry.size > left_) {
             return read_error(Cause::kLimitExceeded, at_byte(static_cast<std::size_t>(entry.at)),
-                              quoted(entry.name) + " unpacks to " + std::to_string(entry.size) + " bytes; at most " +
+                              vsplit::quoted(entry.name) + " unpacks to " + std::to_string(entry.size) + " bytes; at most " +
                                   std::to_string(most_) + " of XML are accepted for the faces that are");
         }
         left_ -= entry.size;
@@ -81,7 +82,8 @@ Expected<TriangleMesh> read_3mf(std::span<const std::byte> bytes, const ReadOpti
     Parts parts(*archive, options.max_faces);
     const auto read = [&](const std::string& name) -> Expected<Model3mf> {
         const ZipEntry* entry = archive->find(name);
-        if (entry == nullptr) return Error{Cause::kMalformedInput, "the archive has no " + quoted(name) + ", which it names", ""};
+        if (entry == nullptr)
+            return Error{Cause::kMalformedInput, "the archive has no " + vsplit::quoted(name) + ", which it names", ""};
         Expected<XmlStream> xml = parts.open(*entry);
         if (!xml) return xml.error();
         return read_model_3mf(name, *std::move(xml), options.max_faces);
@@ -90,7 +92,8 @@ Expected<TriangleMesh> read_3mf(std::span<const std::byte> bytes, const ReadOpti
     if (!root) return root.error();
     if (archive->find(*root) == nullptr) {
         return Error{Cause::kUnknownFormat,
-                     "byte 0: the bytes are a zip archive without a 3MF model (" + quoted(*root) + "); unpack it first", ""};
+                     "byte 0: the bytes are a zip archive without a 3MF model (" + vsplit::quoted(*root) + "); unpack it first",
+                     ""};
     }
     std::vector<Model3mf> models;
     Expected<Model3mf> first = read(*root);
@@ -100,8 +103,10 @@ Expected<TriangleMesh> read_3mf(std::span<const std::byte> bytes, const ReadOpti
         Expected<Model3mf> model = read(name);
         if (!model) return model.error();
         if (model->unit != models.front().unit) {
-            return Error{Cause::kMalformedInput, name + " is in " + std::string(unit_symbol(model->unit)) + ", and " + *root + " in " +
-                                                     std::string(unit_symbol(models.front().unit)), ""};
+            return Error{Cause::kMalformedInput,
+                         name + " is in " + std::string(unit_symbol(model->unit)) + ", and " + *root + " in " +
+                             std::string(unit_symbol(models.front().unit)),
+                         ""};
         }
         models.push_back(*std::move(model));
     }

@@ -6,11 +6,12 @@
 #include <span>
 
 #include "vsplit/base/expected.h"
-#include "vsplit/io/read_mesh.h"
 #include "vsplit/mesh/length_unit.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
+
+struct ReadOptions;
 
 /// One reader a format. All return the mesh as it stands in the file (STL: each vertex once, however often it is repeated), with
 /// every coordinate valid, every index in range and at most `max_faces` faces; or the first error in the file.

@@ -66,7 +66,8 @@ Status check_unit(MeshFormat format, std::optional<LengthUnit> unit, std::option
                      "unit"};
     }
     if (format != MeshFormat::k3mf) return Done{};
-    return Error{Cause::kInvalidOption, std::string("a 3mf file says its unit, and that of the mesh is not known") + remedy, "unit"};
+    return Error{Cause::kInvalidOption, std::string("a 3mf file says its unit, and that of the mesh is not known") + remedy,
+                 "unit"};
 }
 
 bool has_second_order(MeshFormat format) {

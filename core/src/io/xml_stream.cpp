@@ -105,8 +105,8 @@ void append_escaped(std::string& text, char c) {
 }  // namespace
 
 void XmlStream::go_to(std::size_t at) {
-    line_ += static_cast<std::size_t>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
-                                                 text_.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+    line_ += static_cast<std::size_t>(
+        std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_), text_.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
     at_ = at;
 }
 
@@ -156,8 +156,9 @@ Expected<std::size_t> XmlStream::find_end() {
         }
         if (end != std::string_view::npos) return at_ + end;
         if (rest.size() > kLongestTag) {
-            return read_error(Cause::kMalformedInput, at_line(line_),
-                              "a tag or comment has over " + std::to_string(kLongestTag) + " bytes: " + quoted(rest.substr(0, 20)));
+            return read_error(
+                Cause::kMalformedInput, at_line(line_),
+                "a tag or comment has over " + std::to_string(kLongestTag) + " bytes: " + quoted(rest.substr(0, 20)));
         }
         const Expected<bool> more = read_on();
         if (!more) return more.error();

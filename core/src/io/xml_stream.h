@@ -17,8 +17,8 @@ public:
     explicit XmlStream(ZipStream bytes) : bytes_(std::move(bytes)) {}
 
     /// The next tag, valid until the next call; empty at the end of the file. \return what ZipStream and XmlTags return;
-    /// UNSUPPORTED for text of 16 bits; MALFORMED_INPUT for a document type (which formats on zip archives forbid) and for a tag or
-    /// comment of over a mebibyte.
+    /// UNSUPPORTED for text of 16 bits; MALFORMED_INPUT for a document type (which formats on zip archives forbid) and for a tag
+    /// or comment of over a mebibyte.
     [[nodiscard]] Expected<std::optional<XmlTag>> next();
 
 private:
@@ -38,7 +38,8 @@ private:
 /// The characters that `text`, an attribute's, stands for: &lt; and the like, &#65; as UTF-8. What is no such reference stays.
 [[nodiscard]] std::string xml_unescaped(std::string_view text);
 
-/// `name` as an attribute's text. Bytes that are no UTF-8 are taken for Latin-1; control characters, which XML has not, become '_'.
+/// `name` as an attribute's text. Bytes that are no UTF-8 are taken for Latin-1; control characters, which XML has not, become
+/// '_'.
 [[nodiscard]] std::string xml_escaped(std::string_view name);
 
 }  // namespace vsplit

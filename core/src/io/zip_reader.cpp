@@ -106,7 +106,8 @@ struct ZipStream::State {
         if (given > entry.size) return wrong("unpacks to more bytes than the " + std::to_string(entry.size) + " it claims");
         if (!bytes->empty()) return bytes;
         if (given < entry.size)
-            return wrong("unpacks to " + std::to_string(given) + " bytes instead of the " + std::to_string(entry.size) + " it claims");
+            return wrong("unpacks to " + std::to_string(given) + " bytes instead of the " + std::to_string(entry.size) +
+                         " it claims");
         if (crc != entry.crc) return wrong("does not have its checksum: it is damaged");
         return bytes;
     }
@@ -144,8 +145,7 @@ private:
     }
 };
 
-ZipStream::ZipStream(const ZipEntry& entry, std::span<const std::byte> packed)
-    : state_(std::make_unique<State>(entry, packed)) {}
+ZipStream::ZipStream(const ZipEntry& entry, std::span<const std::byte> packed) : state_(std::make_unique<State>(entry, packed)) {}
 ZipStream::ZipStream(ZipStream&&) noexcept = default;
 ZipStream& ZipStream::operator=(ZipStream&&) noexcept = default;
 ZipStream::~ZipStream() = default;
@@ -216,7 +216,8 @@ Expected<ZipStream> ZipReader::unpack(const ZipEntry& entry) const {
         return entry_error(Cause::kUnsupported, entry,
                            "is packed by method " + std::to_string(entry.method) + "; read are 0 (stored) and 8 (deflate)");
     }
-    const std::uint64_t most = entry.method == zip::kStored ? entry.packed : kMostDeflateRatio * std::min(entry.packed, bytes_.size());
+    const std::uint64_t most =
+        entry.method == zip::kStored ? entry.packed : kMostDeflateRatio * std::min(entry.packed, bytes_.size());
     if (entry.size > most) {
         return entry_error(Cause::kMalformedInput, entry,
                            "claims " + std::to_string(entry.size) + " bytes, more than its " + std::to_string(entry.packed) +
@@ -228,7 +229,8 @@ Expected<ZipStream> ZipReader::unpack(const ZipEntry& entry) const {
     const std::byte* from = bytes_.data() + entry.at;
     if (load<std::uint32_t>(from) != zip::kLocalHeader)
         return entry_error(Cause::kMalformedInput, entry, "does not begin with a header of a zip entry");
-    const std::uint64_t begin = entry.at + zip::kLocalHeaderBytes + load<std::uint16_t>(from + 26) + load<std::uint16_t>(from + 28);
+    const std::uint64_t begin =
+        entry.at + zip::kLocalHeaderBytes + load<std::uint16_t>(from + 26) + load<std::uint16_t>(from + 28);
     if (begin > size || size - begin < entry.packed) return entry_error(Cause::kTruncatedInput, entry, "is cut off");
     return ZipStream(entry, bytes_.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(entry.packed)));
 }

@@ -33,8 +33,8 @@ public:
     ZipStream& operator=(const ZipStream&) = delete;
     ~ZipStream();
 
-    /// The next bytes; valid until the next call. Empty at the end, where there were as many as the table tells and their checksum
-    /// is right. \return MALFORMED_INPUT, TRUNCATED_INPUT.
+    /// The next bytes; valid until the next call. Empty at the end, where there were as many as the table tells and their
+    /// checksum is right. \return MALFORMED_INPUT, TRUNCATED_INPUT.
     [[nodiscard]] Expected<std::string_view> next();
 
 private:
@@ -54,8 +54,8 @@ public:
     /// Bytes of all entries, unpacked, by what the table claims.
     [[nodiscard]] std::uint64_t unpacked_size() const { return unpacked_size_; }
 
-    /// \return UNSUPPORTED for one that is encrypted or packed otherwise than by deflate; MALFORMED_INPUT for one that claims more
-    /// bytes than deflate can make of those that are there; TRUNCATED_INPUT.
+    /// \return UNSUPPORTED for one that is encrypted or packed otherwise than by deflate; MALFORMED_INPUT for one that claims
+    /// more bytes than deflate can make of those that are there; TRUNCATED_INPUT.
     [[nodiscard]] Expected<ZipStream> unpack(const ZipEntry& entry) const;
 
 private:

@@ -45,7 +45,8 @@ Expected<LengthUnit> unit_by_symbol(std::string_view symbol) {
         if (known.symbol == symbol) return known.unit;
         accepted.append(accepted.empty() ? "" : ", ").append(known.symbol);
     }
-    return Error{Cause::kInvalidOption, "no unit of length is called '" + std::string(symbol) + "'; known are " + accepted, "unit"};
+    return Error{Cause::kInvalidOption, "no unit of length is called '" + std::string(symbol) + "'; known are " + accepted,
+                 "unit"};
 }
 
 Expected<std::optional<LengthUnit>> agreed_unit(std::optional<LengthUnit> told, std::optional<LengthUnit> stated) {

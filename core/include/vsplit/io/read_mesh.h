@@ -20,8 +20,8 @@ struct ReadOptions {
     double weld = 0;                       ///< length, model units, >= 0; 0 merges exactly equal vertices. See `weld`.
     std::uint32_t max_faces = 50'000'000;  ///< LIMIT_EXCEEDED beyond; checked against headers before memory is taken
     std::optional<LengthUnit> unit{};      ///< of the file's lengths, where it does not say it
-    /// Asked with the number of faces before a file is put together that names the same faces at several places (3MF), as its size
-    /// does not tell. An error ends the reading.
+    /// Asked with the number of faces before a file is put together that names the same faces at several places (3MF), as its
+    /// size does not tell. An error ends the reading.
     std::function<Status(std::uint64_t faces)> make_room{};
 };
 
@@ -33,8 +33,9 @@ struct ReadResult {
     std::optional<LengthUnit> unit{};  ///< what the file says, else what the caller stated; empty: nobody did
 };
 
-/// Reads STL (binary, ASCII), OBJ, PLY (ASCII, little- and big-endian), OFF, MSH (2.2, 4.1), INP, BDF, VTK, VTU or 3MF from memory
-/// and welds it. Of them 3MF alone says its unit. Of what solvers mesh, triangles and quadrilaterals are read, by their corners where they have mid-side nodes.
+/// Reads STL (binary, ASCII), OBJ, PLY (ASCII, little- and big-endian), OFF, MSH (2.2, 4.1), INP, BDF, VTK, VTU or 3MF from
+/// memory and welds it. Of them 3MF alone says its unit. Of what solvers mesh, triangles and quadrilaterals are read, by their
+/// corners where they have mid-side nodes.
 ///
 /// Attributes other than positions, faces and regions are skipped. Nothing is repaired: a wrong byte is an error that says where
 /// (line for text, byte offset for binary), what was read and what was expected.

@@ -10,6 +10,7 @@
 
 #include "vsplit/base/expected.h"
 #include "vsplit/io/mesh_format.h"
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/mesh/triangle_mesh.h"
 #include "vsplit/mrr/multires_mesh.h"
 #include "vsplit/mrr/record_block.h"
