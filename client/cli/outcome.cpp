@@ -6,7 +6,10 @@ namespace vsplit::cli {
 namespace {
 
 /// One of a later version is not known here.
-std::optional<LengthUnit> known(v1::LengthUnit unit) { return wire::from_proto(unit).value_or(std::nullopt); }
+std::optional<LengthUnit> known(v1::LengthUnit unit) {
+    const Expected<std::optional<LengthUnit>> found = wire::from_proto(unit);
+    return found ? *found : std::nullopt;
+}
 
 std::optional<LengthUnit> of(const v1::MeshSummary& summary) { return known(summary.unit()); }
 std::optional<LengthUnit> of(const v1::Representation& representation) { return known(representation.unit()); }

@@ -250,8 +250,8 @@ Expected<Outcome> run_on_server(const Arguments& arguments, const std::vector<Ou
     if (!client) return client.error();
     const Expected<RemoteSession> session = RemoteSession::open(*client, arguments, progress, stop);
     if (!session) return session.error();
-    const auto unit = wire::from_proto(session->session().source().unit());
-    if (Status writable = check_units(outputs, unit.value_or(std::nullopt), arguments); !writable) return writable.error();
+    const std::optional<LengthUnit> unit = unit_of(session->session().source());
+    if (Status writable = check_units(outputs, unit, arguments); !writable) return writable.error();
     return RemoteRun(*client, *session, arguments, outputs, progress, stop).run();
 }
 

@@ -134,7 +134,7 @@ TEST(ZipTest, NoPrefixAndNoDamagedByteIsTakenForWhole) {
         std::string bad = good;
         bad[static_cast<std::size_t>(random.uniform(0, static_cast<double>(bad.size())))] ^= static_cast<char>(1 << (i % 8));
         const Expected<std::string> read = unpacked(bad, "dir/second.txt");
-        if (read) EXPECT_EQ(*read, text);  // a date, a flag that says nothing
+        EXPECT_TRUE(!read || *read == text);  // a date, a flag that says nothing
     }
 }
 

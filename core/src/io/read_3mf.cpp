@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "io/model_3mf.h"
 #include "io/read_error.h"
 #include "io/readers.h"
+#include "io/text_lines.h"
 #include "io/xml_stream.h"
 #include "io/zip_reader.h"
 #include "vsplit/io/read_mesh.h"
@@ -61,17 +63,18 @@ Expected<std::string> root_of(const ZipReader& archive, Parts& parts) {
     }
 }
 
-/// Parts that a model names beside itself, each once.
+/// Parts that a model names beside itself, each once, in whichever case.
 std::vector<std::string> parts_named(const Model3mf& model) {
-    std::vector<std::string> names;
+    std::map<std::string, std::string> names{{upper_case(model.part), model.part}};
     const auto take = [&](const Reference3mf& reference) {
-        if (!reference.part.empty() && reference.part != model.part) names.push_back(reference.part);
+        if (!reference.part.empty()) names.try_emplace(upper_case(reference.part), reference.part);
     };
     for (const Object3mf& object : model.objects) std::for_each(object.components.begin(), object.components.end(), take);
     std::for_each(model.items.begin(), model.items.end(), take);
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    return names;
+    names.erase(upper_case(model.part));
+    std::vector<std::string> parts;
+    for (const auto& [key, name] : names) parts.push_back(name);
+    return parts;
 }
 
 }  // namespace
