@@ -144,7 +144,7 @@ Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(ser
 }
 
 DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& end) {
-    if (!file_.mapping) {
+    if (!file_) {
         std::optional<Expected<File>> prepared = prepared_->take();
         if (!prepared) return Step::kWait;
         if (!*prepared) {
@@ -161,7 +161,7 @@ DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& en
 
 void DownloadSource::fill(v1::MeshChunk& chunk) {
     chunk.Clear();
-    const std::span<const std::byte> rest = file_.mapping->bytes().subspan(sent_);
+    const std::span<const std::byte> rest = file_->bytes().subspan(sent_);
     const std::span<const std::byte> part = rest.first(std::min(rest.size(), kChunkBytes));
     chunk.set_offset(sent_);
     chunk.set_data(part.data(), part.size());

@@ -36,6 +36,7 @@ struct SessionRecord {
 /// What an archive holds when a server begins.
 struct Restored {
     std::vector<SessionRecord> sessions;  ///< by number
+    std::uint64_t last_number = 0;        ///< the largest in use, also by what is not served
     std::chrono::milliseconds now{};      ///< service time
 };
 

@@ -35,10 +35,10 @@ Status SessionStore::restore() {
     Expected<Restored> restored = host_.archive.restore(host_.memory);
     if (!restored) return restored.error();
     began_ = Session::Clock::now() - restored->now;
+    last_number_ = restored->last_number;
     for (SessionRecord& record : restored->sessions) {
         ++by_owner_[record.owner];
         ++count_;
-        last_number_ = std::max(last_number_, record.number);
         publish(std::make_shared<Session>(std::move(record), began_, host_));
     }
     return Done{};
@@ -208,6 +208,7 @@ Status SessionStore::note_time() {
 // Lock held.
 void SessionStore::forget_owner(const std::string& owner) {
     const auto held = by_owner_.find(owner);
+    if (held == by_owner_.end()) return;  // all were forgotten meanwhile
     if (--held->second == 0) by_owner_.erase(held);
     --count_;
 }

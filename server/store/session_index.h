@@ -42,6 +42,7 @@ struct JobRow {
 /// Everything that is not set aside, in order of numbers.
 struct IndexContents {
     std::int64_t now = 0;
+    std::uint64_t last_session = 0;  ///< the largest number, of those set aside too
     std::vector<SessionRow> sessions;
     std::vector<RepresentationRow> representations;
     std::vector<JobRow> jobs;

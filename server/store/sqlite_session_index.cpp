@@ -87,6 +87,9 @@ Expected<IndexContents> SqliteSessionIndex::load() {
     const Expected<std::int64_t> now = one_number(database_, "SELECT now FROM clock");
     if (!now) return now.error();
     contents.now = *now;
+    const Expected<std::int64_t> last = one_number(database_, "SELECT max(number) FROM sessions");
+    if (!last) return last.error();
+    contents.last_session = static_cast<std::uint64_t>(*last);
     if (Status loaded = load_sessions(contents); !loaded) return loaded.error();
     if (Status loaded = load_representations(contents); !loaded) return loaded.error();
     if (Status loaded = load_jobs(contents); !loaded) return loaded.error();

@@ -112,7 +112,7 @@ Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
         set_aside(row.number, row.id, why->second);
     }
     collect(keys_of(*blobs));
-    service::Restored restored{{}, milliseconds(contents->now)};
+    service::Restored restored{{}, contents->last_session, milliseconds(contents->now)};
     for (auto& [number, record] : records) restored.sessions.push_back(std::move(record));
     return restored;
 }
