@@ -100,8 +100,8 @@ class Assembly {
 public:
     Assembly(const std::vector<Model3mf>& models, const ReadOptions& options) : root_(models.front()), options_(options) {
         // An object names such as stand before it, and an object of the root any of other files.
-        for (auto model = models.rbegin(); model != models.rend(); ++model) {
-            for (const Object3mf& object : model->objects) nodes_.push_back({&*model, &object, {}, {}});
+        for (std::size_t m = models.size(); m-- > 0;) {
+            for (const Object3mf& object : models[m].objects) nodes_.push_back({&models[m], &object, {}, {}});
         }
     }
 

@@ -133,7 +133,7 @@ Expected<bool> XmlStream::find_opening() {
             return true;
         }
         go_to(text_.size());
-        const Expected<bool> more = read_on();
+        Expected<bool> more = read_on();
         if (!more || !*more) return more;
     }
 }

@@ -99,7 +99,7 @@ struct ZipStream::State {
     }
 
     [[nodiscard]] Expected<std::string_view> take() {
-        const Expected<std::string_view> bytes = entry.method == zip::kStored ? take_stored() : inflate_some();
+        Expected<std::string_view> bytes = entry.method == zip::kStored ? take_stored() : inflate_some();
         if (!bytes) return bytes;
         given += bytes->size();
         crc = crc32(crc, reinterpret_cast<const Bytef*>(bytes->data()), static_cast<uInt>(bytes->size()));

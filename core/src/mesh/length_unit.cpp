@@ -63,9 +63,9 @@ double metres_in(LengthUnit unit) {
 
 void convert_lengths(std::span<Vec3> positions, LengthUnit from, LengthUnit to) {
     const std::int64_t shared = std::gcd(name_of(from).micrometres, name_of(to).micrometres);
-    const auto times = static_cast<double>(name_of(from).micrometres / shared);
-    const auto parts = static_cast<double>(name_of(to).micrometres / shared);
-    for (Vec3& position : positions) position = position * times / parts;
+    const std::int64_t times = name_of(from).micrometres / shared;
+    const std::int64_t parts = name_of(to).micrometres / shared;
+    for (Vec3& position : positions) position = position * static_cast<double>(times) / static_cast<double>(parts);
 }
 
 }  // namespace vsplit
