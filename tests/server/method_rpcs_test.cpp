@@ -227,7 +227,9 @@ TEST_F(MethodRpcsTest, NamesTheLimitOfRepresentations) {
     TestServer server(options);
     const std::string id = session_with(server.stub(), mesh_);
     ASSERT_TRUE(improve(server.stub(), small_improve(id)).status.ok());
-    const Received refused = improve(server.stub(), small_improve(id));
+    v1::ImproveRequest other = small_improve(id);
+    other.mutable_options()->set_feature_weight(3);
+    const Received refused = improve(server.stub(), other);
     EXPECT_TRUE(failed_with(refused.status, Cause::kLimitExceeded, "session"));
     EXPECT_THAT(refused.status.error_message(), HasSubstr("max_representations"));
 }
