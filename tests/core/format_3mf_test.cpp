@@ -289,6 +289,14 @@ TEST(Format3mfTest, BombsAreRefusedBeforeMemoryIsTaken) {
     };
     EXPECT_THAT(error_of(file(objects, "<item objectid=\"12\"/>"), {.make_room = refuse}).message, HasSubstr("no room"));
     EXPECT_EQ(asked, 8192U);
+    // Millions of what takes memory, each a few packed bits: vertices no face uses, objects, components.
+    std::string vertices = "<mesh><vertices>";
+    for (int i = 0; i < 301; ++i) vertices += "<vertex x=\"0\" y=\"0\" z=\"0\"/>";
+    EXPECT_THAT(error_of(file(object(1, "", vertices + "</vertices></mesh>"), ""), {.max_faces = 100}).message,
+                HasSubstr("over three vertices for each face"));
+    std::string many;
+    for (int i = 0; i < 1'000'001; ++i) many += "<item objectid=\"1\"/>";
+    EXPECT_THAT(error_of(file(object(1, "", ""), many)).message, HasSubstr("over a million objects, components"));
     // XML that is nothing but space.
     const std::string space = archive_of({{"3D/3dmodel.model", std::string(4'000'000, ' ')}});
     EXPECT_LT(space.size(), 10'000U);

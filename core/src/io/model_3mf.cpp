@@ -13,8 +13,6 @@
 namespace vsplit {
 namespace {
 
-constexpr std::uint64_t kMostMemberships = 100'000'000;  // of triangles in sets
-
 constexpr std::array<std::pair<std::string_view, LengthUnit>, 6> kUnits = {{{"micron", LengthUnit::kMicrometre},
                                                                             {"millimeter", LengthUnit::kMillimetre},
                                                                             {"centimeter", LengthUnit::kCentimetre},
@@ -34,8 +32,7 @@ std::string_view local_name(std::string_view name) { return name.substr(name.fin
 /// Reads one model file, tag by tag.
 class ModelFile {
 public:
-    ModelFile(std::string part, XmlStream xml, std::uint32_t max_faces)
-        : xml_(std::move(xml)), max_faces_(max_faces), builder_(max_faces) {
+    ModelFile(std::string part, XmlStream xml, Room3mf& room) : xml_(std::move(xml)), room_(room), builder_(room.faces) {
         model_.part = std::move(part);
     }
 
@@ -94,6 +91,7 @@ private:
 
     Status begin_object(const XmlTag& tag) {
         if (object_) return error(tag.line, Cause::kMalformedInput, "an object begins within another one");
+        if (Status one = take_part(tag); !one) return one;
         Object3mf& object = object_.emplace();
         const Expected<std::uint64_t> id = number(tag, "id", 0xFFFFFFFFU);
         if (!id) return id.error();
@@ -102,13 +100,13 @@ private:
         object.name = xml_unescaped(tag.attribute("name"));
         const std::string_view type = tag.attribute("type");
         object.is_support = type == "support" || type == "solidsupport";
-        builder_ = MeshBuilder(max_faces_ - faces_);
+        builder_ = MeshBuilder(room_.faces);
         return tag.closed ? end_object() : Status(Done{});
     }
 
     Status end_object() {
         if (!object_) return Done{};
-        faces_ += builder_.face_count();
+        room_.faces -= builder_.face_count();
         object_->mesh = builder_.take();
         for (const TriangleSet3mf& set : object_->sets) {
             for (const auto& range : set.ranges) {
@@ -125,6 +123,9 @@ private:
 
     Status take_vertex(const XmlTag& tag) {
         if (!object_) return outside(tag);
+        if (room_.vertices == 0)
+            return error(tag.line, Cause::kLimitExceeded, "there are over three vertices for each face that is accepted");
+        --room_.vertices;
         constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
         Vec3 position;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -153,6 +154,7 @@ private:
 
     Status begin_set(const XmlTag& tag) {
         if (!object_) return outside(tag);
+        if (Status one = take_part(tag); !one) return one;
         object_->sets.push_back({xml_unescaped(tag.attribute("name")), {}});
         return Done{};
     }
@@ -168,9 +170,10 @@ private:
             return error(tag.line, Cause::kMalformedInput,
                          "a range of triangles goes from " + std::to_string(*first) + " to " + std::to_string(*last));
         }
-        memberships_ += *last - *first + 1;
-        if (memberships_ > kMostMemberships)
+        const std::uint64_t members = *last - *first + 1;
+        if (members > room_.memberships)
             return error(tag.line, Cause::kLimitExceeded, "the sets of the file have over 100 million members");
+        room_.memberships -= members;
         object_->sets.back().ranges.emplace_back(static_cast<std::uint32_t>(*first), static_cast<std::uint32_t>(*last));
         return Done{};
     }
@@ -190,7 +193,16 @@ private:
         return Done{};
     }
 
-    Expected<Reference3mf> reference(const XmlTag& tag) const {
+    /// An object, a component, an item or a set more.
+    Status take_part(const XmlTag& tag) {
+        if (room_.parts == 0)
+            return error(tag.line, Cause::kLimitExceeded, "there are over a million objects, components, items and sets");
+        --room_.parts;
+        return Done{};
+    }
+
+    Expected<Reference3mf> reference(const XmlTag& tag) {
+        if (Status one = take_part(tag); !one) return one.error();
         const Expected<std::uint64_t> id = number(tag, "objectid", 0xFFFFFFFFU);
         if (!id) return id.error();
         Reference3mf result{{}, *id, {}, tag.line};
@@ -242,11 +254,9 @@ private:
     static Error error(std::size_t line, Cause cause, const std::string& what) { return read_error(cause, at_line(line), what); }
 
     XmlStream xml_;
-    std::uint32_t max_faces_;
+    Room3mf& room_;
     MeshBuilder builder_;  // of the object that is begun
     std::optional<Object3mf> object_;
-    std::uint32_t faces_ = 0;  // of the objects before
-    std::uint64_t memberships_ = 0;
     std::size_t line_ = 1;
     bool begun_ = false;
     Model3mf model_;
@@ -254,9 +264,9 @@ private:
 
 }  // namespace
 
-Expected<Model3mf> read_model_3mf(std::string part, XmlStream xml, std::uint32_t max_faces) {
+Expected<Model3mf> read_model_3mf(std::string part, XmlStream xml, Room3mf& room) {
     const std::string name = part;
-    Expected<Model3mf> model = ModelFile(std::move(part), std::move(xml), max_faces).read();
+    Expected<Model3mf> model = ModelFile(std::move(part), std::move(xml), room).read();
     if (model) return model;
     Error error = model.error();
     error.message = name + ", " + error.message;

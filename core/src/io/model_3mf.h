@@ -54,10 +54,20 @@ struct Model3mf {
     std::vector<Reference3mf> items;
 };
 
-/// Reads a model file; `max_faces` of all its objects. What references name is not looked at.
+/// How much more the model files of an archive may hold together, however small they are packed.
+struct Room3mf {
+    explicit Room3mf(std::uint32_t max_faces) : faces(max_faces), vertices(3 * std::uint64_t{max_faces}) {}
+
+    std::uint32_t faces;
+    std::uint64_t vertices;                   ///< more no face could use
+    std::uint64_t parts = 1'000'000;          ///< objects, components, items and sets
+    std::uint64_t memberships = 100'000'000;  ///< of triangles in sets
+};
+
+/// Reads a model file and takes what it holds off `room`. What references name is not looked at.
 /// \return UNKNOWN_FORMAT for other XML; UNSUPPORTED for an extension that the file requires and that is not known here;
 /// MALFORMED_INPUT, INVALID_COORDINATE, INDEX_OUT_OF_RANGE, LIMIT_EXCEEDED; what XmlStream returns. All with the line.
-[[nodiscard]] Expected<Model3mf> read_model_3mf(std::string part, XmlStream xml, std::uint32_t max_faces);
+[[nodiscard]] Expected<Model3mf> read_model_3mf(std::string part, XmlStream xml, Room3mf& room);
 
 /// How 3MF writes a unit, as "millimeter".
 [[nodiscard]] std::string_view unit_name_3mf(LengthUnit unit);

@@ -83,13 +83,14 @@ Expected<TriangleMesh> read_3mf(std::span<const std::byte> bytes, const ReadOpti
     const Expected<ZipReader> archive = ZipReader::open(bytes);
     if (!archive) return archive.error();
     Parts parts(*archive, options.max_faces);
+    Room3mf room(options.max_faces);
     const auto read = [&](const std::string& name) -> Expected<Model3mf> {
         const ZipEntry* entry = archive->find(name);
         if (entry == nullptr)
             return Error{Cause::kMalformedInput, "the archive has no " + vsplit::quoted(name) + ", which it names", ""};
         Expected<XmlStream> xml = parts.open(*entry);
         if (!xml) return xml.error();
-        return read_model_3mf(name, *std::move(xml), options.max_faces);
+        return read_model_3mf(name, *std::move(xml), room);
     };
     const Expected<std::string> root = root_of(*archive, parts);
     if (!root) return root.error();

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/byte_order.h"
 #include "io/read_error.h"
@@ -166,7 +167,6 @@ Status ZipReader::read_table() {
                           "the zip archive announces a table of " + std::to_string(table->entries) + " entries at byte " +
                               std::to_string(table->at) + ", which is beyond its end");
     }
-    entries_.reserve(static_cast<std::size_t>(table->entries));
     auto at = static_cast<std::size_t>(table->at);
     for (std::uint64_t i = 0; i < table->entries; ++i) {
         const Expected<std::size_t> behind = read_entry(at);
@@ -200,14 +200,13 @@ Expected<std::size_t> ZipReader::read_entry(std::size_t at) {
     entry.packed = *packed;
     entry.at = *header;
     unpacked_size_ += std::min(entry.size, std::numeric_limits<std::uint64_t>::max() - unpacked_size_);
-    entries_.push_back(entry);
+    entries_.try_emplace(upper_case(entry.name), entry);
     return at + all;
 }
 
 const ZipEntry* ZipReader::find(std::string_view name) const {
-    const auto found = std::find_if(entries_.begin(), entries_.end(),
-                                    [name](const ZipEntry& entry) { return equals_ignoring_case(entry.name, name); });
-    return found == entries_.end() ? nullptr : &*found;
+    const auto found = entries_.find(upper_case(name));
+    return found == entries_.end() ? nullptr : &found->second;
 }
 
 Expected<ZipStream> ZipReader::unpack(const ZipEntry& entry) const {

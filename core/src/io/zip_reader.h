@@ -2,11 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "vsplit/base/expected.h"
 
@@ -48,7 +48,7 @@ public:
     /// \return TRUNCATED_INPUT, MALFORMED_INPUT with the byte. O(entries).
     [[nodiscard]] static Expected<ZipReader> open(std::span<const std::byte> bytes);
 
-    /// By name, in any case; null where there is none. O(entries).
+    /// By name, in any case, the first of two; null where there is none. O(log entries).
     [[nodiscard]] const ZipEntry* find(std::string_view name) const;
 
     /// Bytes of all entries, unpacked, by what the table claims.
@@ -65,7 +65,7 @@ private:
     [[nodiscard]] Expected<std::size_t> read_entry(std::size_t at);
 
     std::span<const std::byte> bytes_;
-    std::vector<ZipEntry> entries_;
+    std::map<std::string, ZipEntry> entries_;  // by name in upper case
     std::uint64_t unpacked_size_ = 0;
 };
 
