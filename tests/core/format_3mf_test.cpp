@@ -39,6 +39,12 @@ std::string object(int id, const std::string& attributes, const std::string& con
     return "<object id=\"" + std::to_string(id) + "\" " + attributes + ">" + content + "</object>\n";
 }
 
+std::string components(int id, int times) {
+    std::string text = "<components>";
+    for (int i = 0; i < times; ++i) text.append("<component objectid=\"").append(std::to_string(id)).append("\"/>");
+    return text.append("</components>");
+}
+
 std::string model(const std::string& objects, const std::string& items, const std::string& attributes = "") {
     return std::string("<?xml version=\"1.0\"?>\n<model ") + kCore + " " + attributes + ">\n<resources>\n" + objects +
            "</resources>\n<build>\n" + items + "</build>\n</model>\n";
@@ -264,8 +270,7 @@ TEST(Format3mfTest, BombsAreRefusedBeforeMemoryIsTaken) {
     // Each object is two of the one before: 2^40 tetrahedra in a few KiB.
     std::string objects = object(1, "");
     for (int id = 2; id <= 41; ++id) {
-        const std::string half = "<component objectid=\"" + std::to_string(id - 1) + "\"/>";
-        objects += object(id, "", "<components>" + half + half + "</components>");
+        objects += object(id, "", components(id - 1, 2));
     }
     EXPECT_EQ(error_of(file(objects, "<item objectid=\"41\"/>")).cause, Cause::kLimitExceeded);
     EXPECT_EQ(error_of(file(objects, "<item objectid=\"12\"/>"), {.max_faces = 8191}).cause, Cause::kLimitExceeded);
@@ -274,9 +279,8 @@ TEST(Format3mfTest, BombsAreRefusedBeforeMemoryIsTaken) {
     std::string nothing = object(1, "", "");
     std::string chain = object(1, "");
     for (int id = 2; id <= 100; ++id) {
-        const std::string before = "<component objectid=\"" + std::to_string(id - 1) + "\"/>";
-        nothing += object(id, "", "<components>" + before + before + "</components>");
-        chain += object(id, "", "<components>" + before + "</components>");
+        nothing += object(id, "", components(id - 1, 2));
+        chain += object(id, "", components(id - 1, 1));
     }
     EXPECT_THAT(error_of(file(nothing, "<item objectid=\"40\"/>")).message, HasSubstr("a million objects"));
     EXPECT_THAT(error_of(file(chain, "<item objectid=\"100\"/>")).message, HasSubstr("64 deep"));

@@ -132,7 +132,8 @@ TEST(ZipTest, NoPrefixAndNoDamagedByteIsTakenForWhole) {
     Random random(3);
     for (int i = 0; i < 3000; ++i) {
         std::string bad = good;
-        bad[static_cast<std::size_t>(random.uniform(0, static_cast<double>(bad.size())))] ^= static_cast<char>(1 << (i % 8));
+        char& byte = bad[static_cast<std::size_t>(random.uniform(0, static_cast<double>(bad.size())))];
+        byte = static_cast<char>(byte ^ (1 << (i % 8)));
         const Expected<std::string> read = unpacked(bad, "dir/second.txt");
         EXPECT_TRUE(!read || *read == text);  // a date, a flag that says nothing
     }
