@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/client/temp_directory.h"
+#include "tests/temp_directory.h"
 
 namespace vsplit::test {
 

@@ -12,7 +12,7 @@
 
 #include "tests/client/fake_server.h"
 #include "tests/client/some_mrr.h"
-#include "tests/client/temp_directory.h"
+#include "tests/temp_directory.h"
 #include "vsplit/client/mesh_receiver.h"
 #include "vsplit/mrr/record_block.h"
 #include "wire/base_mesh.h"

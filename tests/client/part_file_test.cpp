@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-#include "tests/client/temp_directory.h"
+#include "tests/temp_directory.h"
 
 namespace vsplit::client {
 namespace {

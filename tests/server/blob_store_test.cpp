@@ -7,10 +7,10 @@
 #include <thread>
 #include <vector>
 
-#include "scratch_dir.h"
 #include "store/file_blob_store.h"
 #include "store/mesh_blob.h"
 #include "tests/core/meshes.h"
+#include "tests/temp_directory.h"
 
 namespace vsplit::store {
 namespace {
@@ -36,7 +36,7 @@ protected:
 
     std::filesystem::path file_of(const std::string& key) const { return scratch_.path() / "blobs" / key.substr(0, 2) / key; }
 
-    test::ScratchDir scratch_;
+    test::TempDirectory scratch_;
 };
 
 TEST_F(FileBlobStoreTest, GivesBackWhatItKeepsAlsoAfterItIsOpenedAnew) {

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <string>
 
-#include "scratch_dir.h"
 #include "store/sqlite.h"
 #include "store/sqlite_session_index.h"
+#include "tests/temp_directory.h"
 
 namespace vsplit::store {
 namespace {
@@ -22,7 +22,7 @@ protected:
         return DataDir::open(directory_, 0, [this](const std::string& message) { told_ += message + '\n'; });
     }
 
-    test::ScratchDir scratch_;
+    test::TempDirectory scratch_;
     const std::filesystem::path directory_ = scratch_.path() / "data" / "vsplit";
     std::string told_;
 };

@@ -13,10 +13,10 @@
 #include <variant>
 #include <vector>
 
-#include "scratch_dir.h"
 #include "service/session_store.h"
 #include "store/data_dir.h"
 #include "tests/core/meshes.h"
+#include "tests/temp_directory.h"
 #include "vsplit/method/control.h"
 #include "vsplit/method/improve.h"
 
@@ -104,7 +104,7 @@ protected:
         return files;
     }
 
-    test::ScratchDir scratch_;
+    test::TempDirectory scratch_;
     service::MemoryBudget memory_{0};
 };
 
