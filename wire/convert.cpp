@@ -125,6 +125,7 @@ v1::MeshSummary to_proto(const MeshReport& report) {
     *proto.mutable_bounding_box() = to_proto(report.box);
     *proto.mutable_quality() = to_proto(report.quality);
     for (const Finding& finding : report.findings) *proto.add_findings() = to_proto(finding);
+    proto.set_unit(to_proto(report.unit));
     return proto;
 }
 
@@ -319,6 +320,8 @@ v1::MeshFormat to_proto(std::optional<MeshFormat> format) {
             return v1::VTK_ASCII;
         case MeshFormat::kVtu:
             return v1::VTU;
+        case MeshFormat::k3mf:
+            return v1::THREE_MF;
     }
     return v1::MESH_FORMAT_UNSPECIFIED;
 }
@@ -357,12 +360,41 @@ Expected<std::optional<MeshFormat>> from_proto(v1::MeshFormat format) {
             return std::optional(MeshFormat::kVtkAscii);
         case v1::VTU:
             return std::optional(MeshFormat::kVtu);
+        case v1::THREE_MF:
+            return std::optional(MeshFormat::k3mf);
         default:
             return unknown_number("format", format,
                                   "STL, STL_ASCII, OBJ, PLY, PLY_ASCII, OFF, MSH, MSH_ASCII, MSH2, MSH2_ASCII, INP, BDF, VTK, "
-                                  "VTK_ASCII, VTU, or none "
+                                  "VTK_ASCII, VTU, THREE_MF, or none "
                                   "to tell it from the bytes");
     }
+}
+
+v1::LengthUnit to_proto(std::optional<LengthUnit> unit) {
+    if (!unit) return v1::LENGTH_UNIT_UNSPECIFIED;
+    switch (*unit) {
+        case LengthUnit::kMicrometre:
+            return v1::MICROMETRE;
+        case LengthUnit::kMillimetre:
+            return v1::MILLIMETRE;
+        case LengthUnit::kCentimetre:
+            return v1::CENTIMETRE;
+        case LengthUnit::kMetre:
+            return v1::METRE;
+        case LengthUnit::kInch:
+            return v1::INCH;
+        case LengthUnit::kFoot:
+            return v1::FOOT;
+    }
+    return v1::LENGTH_UNIT_UNSPECIFIED;
+}
+
+Expected<std::optional<LengthUnit>> from_proto(v1::LengthUnit unit) {
+    if (unit == v1::LENGTH_UNIT_UNSPECIFIED) return std::optional<LengthUnit>();
+    for (const LengthUnit known : length_units()) {
+        if (to_proto(known) == unit) return std::optional(known);
+    }
+    return unknown_number("unit", unit, "MICROMETRE, MILLIMETRE, CENTIMETRE, METRE, INCH, FOOT, or none");
 }
 
 v1::ProfileReport to_proto(const ProfileReport& report) {

@@ -7,6 +7,7 @@
 #include "vsplit/base/expected.h"
 #include "vsplit/io/mesh_format.h"
 #include "vsplit/mesh/inspect.h"
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/method/method_options.h"
 #include "vsplit/method/method_result.h"
 #include "vsplit/mrr/mrr_extent.h"
@@ -70,6 +71,12 @@ namespace vsplit::wire {
 
 /// MESH_FORMAT_UNSPECIFIED becomes empty. \return INVALID_OPTION (field "format") for a number that is no format.
 [[nodiscard]] Expected<std::optional<MeshFormat>> from_proto(v1::MeshFormat format);
+
+/// Empty becomes LENGTH_UNIT_UNSPECIFIED.
+[[nodiscard]] v1::LengthUnit to_proto(std::optional<LengthUnit> unit);
+
+/// LENGTH_UNIT_UNSPECIFIED becomes empty. \return INVALID_OPTION (field "unit") for a number that is no unit.
+[[nodiscard]] Expected<std::optional<LengthUnit>> from_proto(v1::LengthUnit unit);
 
 [[nodiscard]] v1::ProfileReport to_proto(const ProfileReport& report);
 /// Empty where none is named. \return INVALID_OPTION for a number that names none.

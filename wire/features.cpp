@@ -35,9 +35,10 @@ v1::ShapeFeature to_proto(const ShapeFeature& feature) {
     return proto;
 }
 
-v1::ListFeaturesResponse to_proto(const std::vector<ShapeFeature>& features) {
+v1::ListFeaturesResponse to_proto(const std::vector<ShapeFeature>& features, std::optional<LengthUnit> unit) {
     v1::ListFeaturesResponse proto;
     for (const ShapeFeature& feature : features) *proto.add_features() = to_proto(feature);
+    proto.set_unit(to_proto(unit));
     return proto;
 }
 

@@ -2,6 +2,7 @@
 
 #include "vsplit/base/expected.h"
 #include "vsplit/mesh/inspect.h"
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/shapes/remove_features.h"
 #include "vsplit/shapes/shape_features.h"
 #include "vsplit/v1/meshing.pb.h"
@@ -14,7 +15,8 @@ inline constexpr std::size_t kMostFeatureFaces = 10'000;
 
 [[nodiscard]] v1::ShapeFeature to_proto(const ShapeFeature& feature);
 
-[[nodiscard]] v1::ListFeaturesResponse to_proto(const std::vector<ShapeFeature>& features);
+/// Their lengths are in `unit`.
+[[nodiscard]] v1::ListFeaturesResponse to_proto(const std::vector<ShapeFeature>& features, std::optional<LengthUnit> unit);
 
 /// `report` is of the mesh without them.
 [[nodiscard]] v1::RemoveFeaturesResponse to_proto(const FeaturelessMesh& made, const MeshReport& report);

@@ -114,6 +114,9 @@ Expected<MeshReport> from_proto(const v1::MeshSummary& summary) {
         if (!finding) return finding.error();
         report.findings.push_back(*std::move(finding));
     }
+    const Expected<std::optional<LengthUnit>> unit = from_proto(summary.unit());
+    if (!unit) return unit.error();
+    report.unit = *unit;
     return report;
 }
 
@@ -134,6 +137,9 @@ Expected<MethodFigures> figures_of(const v1::Representation& representation) {
         figures.slivers.push_back(*std::move(slivers));
     }
     figures.elapsed = to_seconds(representation.elapsed());
+    const Expected<std::optional<LengthUnit>> unit = from_proto(representation.unit());
+    if (!unit) return unit.error();
+    figures.unit = *unit;
     return figures;
 }
 

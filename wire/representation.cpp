@@ -79,6 +79,7 @@ v1::Representation describe(const std::string& id, const std::string& source_rep
     for (const Slivers& slivers : figures.slivers) *proto.add_slivers() = to_proto(slivers);
     *proto.mutable_records() = count_records(extent);
     *proto.mutable_elapsed() = to_duration(figures.elapsed);
+    proto.set_unit(to_proto(figures.unit));
     return proto;
 }
 

@@ -72,11 +72,11 @@ int fail(const Error& error) {
 
 Expected<Outcome> execute(const Arguments& arguments, const std::vector<Output>& outputs, const InterruptWatch& interrupt) {
     ProgressBar progress(arguments.no_progress ? ProgressBar::Shown::kNever : ProgressBar::Shown::kOnTerminals);
-    Expected<Outcome> outcome = arguments.server.empty() ? run_locally(arguments, progress, interrupt.token())
+    Expected<Outcome> outcome = arguments.server.empty() ? run_locally(arguments, outputs, progress, interrupt.token())
                                                          : run_on_server(arguments, outputs, progress, interrupt.token());
     if (!outcome) return outcome;
     if (interrupt.token().stop_requested()) return ExecutionContext::cancelled_error();
-    if (Status written = write_outputs(*outcome, outputs, arguments.order); !written) return written.error();
+    if (Status written = write_outputs(*outcome, outputs, arguments); !written) return written.error();
     return outcome;
 }
 

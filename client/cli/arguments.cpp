@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kAbout =
     "vsplit makes triangle meshes fit for finite-element analysis, at any resolution.\n"
-    "All lengths are in the units of the mesh. `vsplit VERB --help` tells a verb's options.";
+    "All lengths are in the unit of the mesh, which --unit states. `vsplit VERB --help` tells a verb's options.";
 
 constexpr const char* kExitStatuses =
     "Exit status: 0 done; 1 not done, stderr says why; 2 done, but a bound of control could not be met.\n"
@@ -56,6 +56,14 @@ CLI::Option* add_choice(CLI::App& verb, const std::string& name, const std::map<
     return verb.add_option_function<std::string>(name, convert, about)->check(CLI::Validator(check, ""));
 }
 
+void add_unit(CLI::App& verb, const std::string& name, std::optional<LengthUnit>& unit, const std::string& about) {
+    std::map<std::string, LengthUnit> units;
+    for (const LengthUnit known : length_units()) units.emplace(unit_symbol(known), known);
+    add_choice<LengthUnit>(
+        verb, name, units, [&unit](LengthUnit chosen) { unit = chosen; }, about)
+        ->type_name("U");
+}
+
 void add_input(CLI::App& verb, Arguments& a, const char* what) {
     verb.add_option("IN", a.input, what);
     verb.add_option("--weld", a.weld,
@@ -68,12 +76,14 @@ void add_input(CLI::App& verb, Arguments& a, const char* what) {
         "Mend a broken mesh: none says what stands in the way; safe cuts apart and turns faces; full stitches cracks and fills "
         "small holes too. Default: nothing is mended")
         ->type_name("R");
+    add_unit(verb, "--unit", a.unit,
+             "Unit of the lengths in IN, where it does not say it: um, mm, cm, m, in or ft. 3MF says it; default: not known");
 }
 
 void add_output(CLI::App& verb, Arguments& a) {
     verb.add_option(
             "-o,--output", a.outputs,
-            "File to write, its format by extension: .stl .obj .ply .off .msh .inp .bdf .vtk .vtu .vsplit; may be repeated")
+            "File to write, its format by extension: .stl .obj .ply .off .msh .inp .bdf .vtk .vtu .3mf .vsplit; may be repeated")
         ->type_name("OUT")
         ->expected(1)
         ->take_all()
@@ -81,13 +91,15 @@ void add_output(CLI::App& verb, Arguments& a) {
     verb.add_option("--format", a.format,
                     "Format of OUT instead: stl, stl-ascii, obj, ply, ply-ascii, off, msh, msh-ascii, msh2, msh2-ascii, inp, "
                     "bdf, vtk, vtk-ascii, "
-                    "vtu or vsplit")
+                    "vtu, 3mf or vsplit")
         ->type_name("F");
     verb.add_option("--order", a.order,
                     "Of the elements in OUT: 1, or 2 for triangles of six nodes, the middle ones on the surface worked on, of a "
                     ".vsplit file on its finest resolution (msh, inp, bdf, vtk, vtu). Default 1")
         ->check(CLI::Range(1U, 2U).description(""))
         ->type_name("N");
+    add_unit(verb, "--output-unit", a.output_unit,
+             "Convert the lengths in mesh files OUT to this unit; that of IN must be known. Default: as IN");
     verb.add_flag("--json", a.json, "Print one JSON document on the standard output");
     verb.add_flag("--no-progress", a.no_progress, "No progress bar; there is none anyway where stderr is no terminal");
     verb.add_option("--threads", a.threads, "Threads to use, 0 to 1024; the result does not depend on it. Default 0: all cores")
@@ -252,14 +264,14 @@ void add_method(CLI::App& verb, Arguments& a, Options& o, const char* default_fa
 
 void add_info(CLI::App& app, Arguments& a) {
     CLI::App& verb = *app.add_subcommand("info", "Counts, topology and shape of a mesh, or what a .vsplit file holds");
-    add_input(verb, a, "Mesh (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or .vsplit file");
+    add_input(verb, a, "Mesh (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU, 3MF; told from its bytes) or .vsplit file");
     add_resolution(verb, a, "Resolution of a representation to describe. Default: the one it was made for");
     verb.footer("Example:\n  vsplit info part.stl --json");
 }
 
 void add_quality(CLI::App& app, Arguments& a) {
     CLI::App& verb = *app.add_subcommand("quality", "As info, with the histogram of stretch and the worst faces");
-    add_input(verb, a, "Mesh (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or .vsplit file");
+    add_input(verb, a, "Mesh (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU, 3MF; told from its bytes) or .vsplit file");
     verb.add_option("--against", a.against,
                     "Measure the distance to this mesh or .vsplit file instead, both ways and between creases; not with a server")
         ->type_name("FILE");
@@ -282,7 +294,7 @@ void add_quality(CLI::App& app, Arguments& a) {
 void add_improve(CLI::App& app, Arguments& a) {
     CLI::App& verb = *app.add_subcommand("improve", "Improve the shape of the faces within a tolerance of the surface");
     add_input(verb, a,
-              "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or "
+              "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU, 3MF; told from its bytes) or "
               ".vsplit file");
     verb.add_option("--subdivide", a.improve.subdivision_size,
                     "Split edges until none is longer (the paper's sigma_SZ); length > 0. Default the mean edge of --faces, or "
@@ -307,7 +319,7 @@ void add_control(CLI::App& app, Arguments& a) {
     CLI::App& verb =
         *app.add_subcommand("control", "Bring stretch, size and valence within bounds; for meshes that were improved");
     add_input(verb, a,
-              "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or "
+              "Mesh, closed or with open boundaries (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU, 3MF; told from its bytes) or "
               ".vsplit file");
     verb.add_option("--subdivisions", a.control.subdivisions, "One-to-four subdivisions first; 0 to 12. Default 1")
         ->check(whole_number())
@@ -348,10 +360,10 @@ void add_resolution_verb(CLI::App& app, Arguments& a) {
 
 /// What features and remove-features share.
 void add_feature_search(CLI::App& verb, Arguments& a) {
-    add_input(
-        verb, a,
-        "Closed mesh (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU; told from its bytes) or .vsplit file at the resolution it "
-        "was made for");
+    add_input(verb, a,
+              "Closed mesh (STL, OBJ, PLY, OFF, MSH, INP, BDF, VTK, VTU, 3MF; told from its bytes) or .vsplit file at the "
+              "resolution it "
+              "was made for");
     verb.add_option("--angle", a.removal.search.angle,
                     "Edges that bend by more part the surface; degrees, > 0, < 180. Default 40: holes of fewer than 9 sides are "
                     "not found")

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/method/method_options.h"
 #include "vsplit/shapes/remove_features.h"
 #include "vsplit/v1/meshing.pb.h"
@@ -26,6 +27,8 @@ struct Arguments {
     unsigned threads = 0;  ///< 0: all cores
     double weld = 0;
     v1::Repair repair = v1::REPAIR_UNSPECIFIED;
+    std::optional<LengthUnit> unit;             ///< of IN, where it does not say it
+    std::optional<LengthUnit> output_unit;      ///< of the outputs; empty: as IN
     std::optional<std::uint32_t> faces;         ///< info, quality, resolution: the resolution to show
     std::optional<std::uint32_t> source_faces;  ///< improve, control: resolution of the representation to work on
     std::string size_field;                     ///< improve, control: file of sizes, read by read_size_field_into

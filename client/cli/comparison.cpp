@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "wire/convert.h"
+
 namespace vsplit::cli {
 namespace {
 
@@ -33,13 +35,14 @@ Expected<Comparison> compare(const TriangleMesh& mesh, const TriangleMesh& again
     if (!surface) return surface.error();
     const Expected<CreaseDeviation> creases = measure_crease_deviation(mesh, against, {.accuracy = accuracy}, context);
     if (!creases) return creases.error();
-    return Comparison{mesh.face_count(), against.face_count(), bounding_box(against).diagonal(), *surface, *creases};
+    return Comparison{mesh.face_count(), against.face_count(), bounding_box(against).diagonal(), {}, *surface, *creases};
 }
 
 std::string to_json(const Comparison& c) {
     std::string text = "{\n";
     text += R"( "faces": )" + std::to_string(c.faces) + ",\n";
     text += R"( "facesAgainst": )" + std::to_string(c.faces_against) + ",\n";
+    text += R"( "unit": ")" + v1::LengthUnit_Name(wire::to_proto(c.unit)) + "\",\n";
     text += R"( "diagonal": )" + number(c.diagonal) + ",\n";
     text += R"( "deviationMax": )" + number(c.surface.max()) + ",\n";
     text += R"( "deviationMeasured": )" + number(c.surface.measured()) + ",\n";

@@ -6,6 +6,7 @@
 
 #include "vsplit/base/execution_context.h"
 #include "vsplit/base/expected.h"
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/quality/crease_deviation.h"
 #include "vsplit/quality/deviation.h"
 
@@ -15,7 +16,8 @@ namespace vsplit::cli {
 struct Comparison {
     std::uint32_t faces = 0;
     std::uint32_t faces_against = 0;
-    double diagonal = 0;  ///< of the other mesh's bounding box
+    double diagonal = 0;               ///< of the other mesh's bounding box
+    std::optional<LengthUnit> unit{};  ///< of all lengths
     Deviation surface;
     CreaseDeviation creases;
 };
@@ -25,7 +27,7 @@ struct Comparison {
 [[nodiscard]] Expected<Comparison> compare(const TriangleMesh& mesh, const TriangleMesh& against, std::optional<double> error,
                                            const ExecutionContext& context);
 
-/// One document, lengths in the units of the mesh; a distance to creases that are not there is null.
+/// One document, its lengths in `unit`; a distance to creases that are not there is null.
 [[nodiscard]] std::string to_json(const Comparison& comparison);
 
 }  // namespace vsplit::cli

@@ -44,57 +44,67 @@ struct Source {
 };
 
 Expected<Source> read_source(const std::string& path, const Arguments& a) {
-    Expected<ReadResult> read = read_mesh_file(path, {.weld = a.weld});
+    Expected<ReadResult> read = read_mesh_file(path, {.weld = a.weld, .unit = a.unit});
     if (!read) return read.error();
     const Expected<std::optional<RepairMode>> repair = wire::from_proto(a.repair);
     if (!repair) return repair.error();
     Expected<MeshReport> report = inspect_source(read->mesh, read->weld, *repair);
     if (!report) return report.error();
+    report->unit = read->unit;
     return Source{std::move(read->mesh), *std::move(report)};
 }
 
+struct Measured {
+    TriangleMesh mesh;
+    std::optional<LengthUnit> unit;
+};
+
 /// A mesh, or a .vsplit file at a resolution.
-Expected<TriangleMesh> read_any(const std::string& path, std::optional<std::uint32_t> faces, const Arguments& a) {
+Expected<Measured> read_any(const std::string& path, std::optional<std::uint32_t> faces, const Arguments& a) {
     if (is_representation_file(path)) {
-        Expected<Outcome> stored = load_representation(path, faces);
+        Expected<Outcome> stored = load_representation(path, faces, a.unit);
         if (!stored) return stored.error();
-        return *std::move(stored->mesh);
+        return Measured{*std::move(stored->mesh), unit_of(stored->document)};
     }
     Expected<Source> read = read_source(path, a);
     if (!read) return read.error();
-    return std::move(read->mesh);
+    return Measured{std::move(read->mesh), read->report.unit};
 }
 
 using MethodFunction = std::function<Expected<MethodResult>(const TriangleMesh&, const MethodLimits&, const ExecutionContext&)>;
 
 template <class Options>
-Expected<Outcome> run_method(const Arguments& a, const Options& options, const MethodFunction& method, ProgressBar& progress,
-                             const std::stop_token& stop) {
+Expected<Outcome> run_method(const Arguments& a, const std::vector<Output>& outputs, const Options& options,
+                             const MethodFunction& method, ProgressBar& progress, const std::stop_token& stop) {
     if (Status valid = check_options(options); !valid) return valid.error();
-    Expected<TriangleMesh> source = read_any(a.input, a.source_faces, a);
+    Expected<Measured> source = read_any(a.input, a.source_faces, a);
     if (!source) return source.error();
+    if (Status writable = check_units(outputs, source->unit, a); !writable) return writable.error();
     ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
     const StopCallback on_stop(stop, [&context] { context.cancel(); });
     const MethodLimits limits;
-    Expected<MethodResult> result = method(*source, limits, context);
+    Expected<MethodResult> result = method(source->mesh, limits, context);
     if (!result) return result.error();
-    v1::Representation made = wire::describe("", "", source->face_count(), *result, extent_of(result->mrr));
+    result->unit = source->unit;
+    v1::Representation made = wire::describe("", "", source->mesh.face_count(), *result, extent_of(result->mrr));
     TriangleMesh mesh = mesh_at(result->mrr, result->mrr.level_for(result->faces));
-    return Outcome{std::move(made), std::move(mesh), std::move(result->mrr), *std::move(source)};
+    return Outcome{std::move(made), std::move(mesh), std::move(result->mrr), std::move(source->mesh)};
 }
 
-Expected<Outcome> run_improve(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
+Expected<Outcome> run_improve(const Arguments& a, const std::vector<Output>& outputs, ProgressBar& progress,
+                              const std::stop_token& stop) {
     const MethodFunction method = [&](const TriangleMesh& mesh, const MethodLimits& limits, const ExecutionContext& context) {
         return improve(mesh, a.improve, limits, context);
     };
-    return run_method(a, a.improve, method, progress, stop);
+    return run_method(a, outputs, a.improve, method, progress, stop);
 }
 
-Expected<Outcome> run_control(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
+Expected<Outcome> run_control(const Arguments& a, const std::vector<Output>& outputs, ProgressBar& progress,
+                              const std::stop_token& stop) {
     const MethodFunction method = [&](const TriangleMesh& mesh, const MethodLimits& limits, const ExecutionContext& context) {
         return control(mesh, a.control, limits, context);
     };
-    return run_method(a, a.control, method, progress, stop);
+    return run_method(a, outputs, a.control, method, progress, stop);
 }
 
 void add_worst_faces(const TriangleMesh& mesh, v1::QualityProfile asked, v1::Quality& quality) {
@@ -113,37 +123,43 @@ Expected<Outcome> describe_mesh(const Arguments& a) {
 }
 
 Expected<Outcome> compare_meshes(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
-    Expected<TriangleMesh> mesh = read_any(a.input, a.faces, a);
+    Expected<Measured> mesh = read_any(a.input, a.faces, a);
     if (!mesh) return mesh.error();
-    const Expected<TriangleMesh> against = read_any(a.against, {}, a);
+    Arguments other = a;
+    other.unit.reset();  // what is stated is stated of IN
+    Expected<Measured> against = read_any(a.against, {}, other);
     if (!against) return against.error();
+    if (mesh->unit && against->unit) convert_lengths(against->mesh.positions, *against->unit, *mesh->unit);
     ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
     const StopCallback on_stop(stop, [&context] { context.cancel(); });
-    const Expected<Comparison> comparison = compare(*mesh, *against, a.error, context);
+    Expected<Comparison> comparison = compare(mesh->mesh, against->mesh, a.error, context);
     if (!comparison) return comparison.error();
-    return Outcome{*comparison, *std::move(mesh), {}};
+    comparison->unit = mesh->unit;
+    return Outcome{*comparison, std::move(mesh->mesh), {}};
 }
 
 Expected<Outcome> find_features(const Arguments& a) {
-    Expected<TriangleMesh> mesh = read_any(a.input, {}, a);
+    Expected<Measured> mesh = read_any(a.input, {}, a);
     if (!mesh) return mesh.error();
-    const Expected<std::vector<ShapeFeature>> features = list_features(*mesh, a.removal.search);
+    const Expected<std::vector<ShapeFeature>> features = list_features(mesh->mesh, a.removal.search);
     if (!features) return features.error();
-    return Outcome{wire::to_proto(*features), *std::move(mesh), {}};
+    return Outcome{wire::to_proto(*features, mesh->unit), std::move(mesh->mesh), {}};
 }
 
 Expected<Outcome> take_features(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
-    const Expected<TriangleMesh> mesh = read_any(a.input, {}, a);
+    const Expected<Measured> mesh = read_any(a.input, {}, a);
     if (!mesh) return mesh.error();
     ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
     const StopCallback on_stop(stop, [&context] { context.cancel(); });
-    Expected<FeaturelessMesh> made = remove_features(*mesh, a.removal, context);
+    Expected<FeaturelessMesh> made = remove_features(mesh->mesh, a.removal, context);
     if (!made) return made.error();
-    return Outcome{wire::to_proto(*made, inspect(made->mesh)), std::move(made->mesh), {}};
+    MeshReport report = inspect(made->mesh);
+    report.unit = mesh->unit;
+    return Outcome{wire::to_proto(*made, report), std::move(made->mesh), {}};
 }
 
 Expected<Outcome> describe_representation(const Arguments& a) {
-    Expected<Outcome> outcome = load_representation(a.input, a.faces);
+    Expected<Outcome> outcome = load_representation(a.input, a.faces, a.unit);
     if (!outcome || a.verb != Verb::kQuality) return outcome;
     add_worst_faces(*outcome->mesh, a.profile, *std::get<v1::Representation>(outcome->document).mutable_quality());
     return outcome;
@@ -163,19 +179,24 @@ v1::Representation description_of(const StoredMrr& stored) {
 
 }  // namespace
 
-Expected<Outcome> load_representation(const std::string& path, std::optional<std::uint32_t> faces) {
+Expected<Outcome> load_representation(const std::string& path, std::optional<std::uint32_t> faces,
+                                      std::optional<LengthUnit> unit) {
     Expected<StoredMrr> stored = load_mrr(path);
     if (!stored) return stored.error();
     v1::Representation representation = description_of(*stored);
+    const Expected<std::optional<LengthUnit>> agreed = agreed_unit(unit_of(representation), unit);
+    if (!agreed) return agreed.error();
+    representation.set_unit(wire::to_proto(*agreed));
     TriangleMesh mesh = mesh_at(stored->mrr, stored->mrr.level_for(faces.value_or(stored->faces)));
     wire::describe_resolution(mesh, representation);
     return Outcome{std::move(representation), std::move(mesh), std::move(stored->mrr)};
 }
 
-Expected<Outcome> run_locally(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
+Expected<Outcome> run_locally(const Arguments& a, const std::vector<Output>& outputs, ProgressBar& progress,
+                              const std::stop_token& stop) {
     if (Status valid = check_arguments(a); !valid) return valid.error();
-    if (a.verb == Verb::kImprove) return run_improve(a, progress, stop);
-    if (a.verb == Verb::kControl) return run_control(a, progress, stop);
+    if (a.verb == Verb::kImprove) return run_improve(a, outputs, progress, stop);
+    if (a.verb == Verb::kControl) return run_control(a, outputs, progress, stop);
     if (a.verb == Verb::kFeatures) return find_features(a);
     if (a.verb == Verb::kRemoveFeatures) return take_features(a, progress, stop);
     if (!a.against.empty()) return compare_meshes(a, progress, stop);

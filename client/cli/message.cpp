@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "cli/number_text.h"
+#include "cli/outcome.h"
 
 namespace vsplit::cli {
 namespace {
@@ -39,6 +40,7 @@ std::string option_of(const std::string& field) {
                                                                       {"sizing.min_size", "--min-size"},
                                                                       {"weld", "--weld"},
                                                                       {"repair", "--repair"},
+                                                                      {"unit", "--unit"},
                                                                       {"format", "--format"},
                                                                       {"order", "--order"},
                                                                       {"server", "--server"},
@@ -86,11 +88,21 @@ std::string broken_by(const v1::Violation& violation) {
     return vertices ? counted(violation.count(), "vertex", "vertices") : counted(violation.count(), "face", "faces");
 }
 
+std::string unit_suffix(std::optional<LengthUnit> unit) { return unit ? " " + std::string(unit_symbol(*unit)) : std::string(); }
+
+std::string figure_of_bound(const v1::Violation& violation, double value, const std::string& unit) {
+    const std::string& bound = violation.bound();
+    const bool length = bound == "max_size" || bound == "min_size" || bound == "max_deviation";
+    return figure(value) + (length ? unit : std::string());
+}
+
 std::string violation_messages(const v1::Representation& made) {
+    const std::string unit = unit_suffix(unit_of(made));
     std::string text;
     for (const v1::Violation& violation : made.violations()) {
-        text += "vsplit: bound not met: " + violation.bound() + " " + figure(violation.limit()) + ": " + broken_by(violation) +
-                named(violation) + ", worst " + figure(violation.worst()) + "; " + violation.reason() + "\n";
+        text += "vsplit: bound not met: " + violation.bound() + " " + figure_of_bound(violation, violation.limit(), unit) + ": " +
+                broken_by(violation) + named(violation) + ", worst " + figure_of_bound(violation, violation.worst(), unit) +
+                "; " + violation.reason() + "\n";
     }
     return text;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "vsplit/base/error.h"
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/v1/meshing.pb.h"
 
 namespace vsplit::cli {
@@ -13,6 +15,12 @@ namespace vsplit::cli {
 
 /// A line for each bound that is broken: which, how often, the worst, why. Empty when all hold.
 [[nodiscard]] std::string violation_messages(const v1::Representation& made);
+
+/// What stands behind a length: " mm"; empty where the unit is not known.
+[[nodiscard]] std::string unit_suffix(std::optional<LengthUnit> unit);
+
+/// A figure of what a bound bounds, with `unit`, a suffix, behind it where that is a length.
+[[nodiscard]] std::string figure_of_bound(const v1::Violation& violation, double value, const std::string& unit);
 
 /// How many faces or vertices break a bound, e.g. "12 faces".
 [[nodiscard]] std::string broken_by(const v1::Violation& violation);

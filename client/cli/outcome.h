@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "cli/comparison.h"
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/mesh/triangle_mesh.h"
 #include "vsplit/mrr/multires_mesh.h"
 #include "vsplit/v1/meshing.pb.h"
@@ -13,6 +14,9 @@ namespace vsplit::cli {
 /// What `--json` prints and what the report tells.
 using Document =
     std::variant<v1::MeshSummary, v1::Representation, Comparison, v1::ListFeaturesResponse, v1::RemoveFeaturesResponse>;
+
+/// The unit of the lengths that a document tells; empty where it is not known.
+[[nodiscard]] std::optional<LengthUnit> unit_of(const Document& document);
 
 /// What a verb came to.
 struct Outcome {

@@ -50,11 +50,20 @@ Expected<MidsideNodes> nodes_of(const Outcome& outcome) {
     return midside_nodes(*outcome.mesh, finest, context);
 }
 
-Status write_curved(const Outcome& outcome, const Output& output) {
-    const Expected<MidsideNodes> nodes = nodes_of(outcome);
+/// The outcome's mesh in the unit of the outputs.
+Status write_mesh_output(const Outcome& outcome, const Output& output, const Arguments& arguments) {
+    const std::optional<LengthUnit> from = unit_of(outcome.document);
+    if (Status possible = check_unit(*output.format, from, arguments.output_unit); !possible) return possible;
+    const std::optional<LengthUnit> to = arguments.output_unit ? arguments.output_unit : from;
+    std::optional<TriangleMesh> converted;
+    if (from != to) convert_lengths(converted.emplace(*outcome.mesh).positions, *from, *to);
+    const TriangleMesh& mesh = converted ? *converted : *outcome.mesh;
+    if (arguments.order != 2) return write_mesh_file(mesh, *output.format, output.path, to);
+    Expected<MidsideNodes> nodes = nodes_of(outcome);
     if (!nodes) return nodes.error();
+    if (from != to) convert_lengths(nodes->positions, *from, *to);
     std::cerr << on_chord_note(nodes->on_chord);
-    return write_second_order_file(*outcome.mesh, *nodes, *output.format, output.path);
+    return write_second_order_file(mesh, *nodes, *output.format, output.path);
 }
 
 Status write_representation(const Outcome& outcome, const std::string& path) {
@@ -63,7 +72,7 @@ Status write_representation(const Outcome& outcome, const std::string& path) {
         return Error{Cause::kInvalidOption,
                      "'" + path +
                          "' would hold a representation, and there is only a mesh; accepted are .stl, "
-                         ".obj, .ply, .off, .msh, .inp, .bdf, .vtk and .vtu, or `improve` or `control` the mesh first",
+                         ".obj, .ply, .off, .msh, .inp, .bdf, .vtk, .vtu and .3mf, or `improve` or `control` the mesh first",
                      "output"};
     }
     // The same input and options give the same file: it holds nothing of the run that made it.
@@ -93,15 +102,19 @@ bool wants_representation(const std::vector<Output>& outputs) {
     return std::any_of(outputs.begin(), outputs.end(), [](const Output& output) { return !output.format; });
 }
 
-Status write_outputs(const Outcome& outcome, const std::vector<Output>& outputs, std::uint32_t order) {
+Status check_units(const std::vector<Output>& outputs, std::optional<LengthUnit> unit, const Arguments& arguments) {
+    for (const Output& output : outputs) {
+        if (!output.format) continue;
+        if (Status possible = check_unit(*output.format, unit, arguments.output_unit); !possible) return possible;
+    }
+    return Done{};
+}
+
+Status write_outputs(const Outcome& outcome, const std::vector<Output>& outputs, const Arguments& arguments) {
     for (const Output& output : outputs) {
         if (output.format && !outcome.mesh) continue;  // the server sent the file
-        if (output.format && order == 2) {
-            if (Status written = write_curved(outcome, output); !written) return written;
-            continue;
-        }
-        Status written = output.format ? write_mesh_file(*outcome.mesh, *output.format, output.path)
-                                       : write_representation(outcome, output.path);
+        Status written =
+            output.format ? write_mesh_output(outcome, output, arguments) : write_representation(outcome, output.path);
         if (!written) return written;
     }
     return Done{};

@@ -25,7 +25,12 @@ struct Output {
 [[nodiscard]] bool wants_representation(const std::vector<Output>& outputs);
 
 /// Writes what was not downloaded. \return INVALID_OPTION for a representation where there is but a mesh; FILE_ACCESS.
-/// `order` is that of the elements; of order 2 stderr tells how many sides stay straight where some do.
-[[nodiscard]] Status write_outputs(const Outcome& outcome, const std::vector<Output>& outputs, std::uint32_t order);
+/// Of order 2 stderr tells how many sides stay straight where some do.
+/// Mesh files are converted to `arguments.output_unit`.
+[[nodiscard]] Status write_outputs(const Outcome& outcome, const std::vector<Output>& outputs, const Arguments& arguments);
+
+/// Whether a mesh in `unit` can be written to all of them, to be asked before anything is computed. \return what check_unit
+/// returns.
+[[nodiscard]] Status check_units(const std::vector<Output>& outputs, std::optional<LengthUnit> unit, const Arguments& arguments);
 
 }  // namespace vsplit::cli

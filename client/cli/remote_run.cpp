@@ -21,6 +21,7 @@ Status check_input(const Arguments& a) {
     const bool none = a.input.empty() || a.input == "-";
     if (a.session.empty() && none) return invalid("a file is needed to upload, or a session that holds one", "input");
     if (!a.session.empty() && !none) return invalid("with a session nothing is uploaded; leave IN out, or give -", "input");
+    if (!a.session.empty() && a.unit) return invalid("the session's mesh has its unit from its upload; leave it out", "unit");
     if (!a.session.empty() && a.keep) return invalid("a session that is named is kept anyway", "keep");
     if (a.session.empty() && !a.representation.empty())
         return invalid("a new session has no representations; name a session", "session");
@@ -207,6 +208,7 @@ private:
             request.set_session(session_.id());
             request.set_format(wire::to_proto(output.format));
             request.set_order(arguments_.order);
+            request.set_unit(wire::to_proto(arguments_.output_unit));
             request.set_representation(representation);
             request.set_faces(faces_asked);
             const auto faces = client_.download_mesh(request, output.path, call_);
@@ -248,6 +250,8 @@ Expected<Outcome> run_on_server(const Arguments& arguments, const std::vector<Ou
     if (!client) return client.error();
     const Expected<RemoteSession> session = RemoteSession::open(*client, arguments, progress, stop);
     if (!session) return session.error();
+    const std::optional<LengthUnit> unit = unit_of(session->session().source());
+    if (Status writable = check_units(outputs, unit, arguments); !writable) return writable.error();
     return RemoteRun(*client, *session, arguments, outputs, progress, stop).run();
 }
 

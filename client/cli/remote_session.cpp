@@ -16,6 +16,7 @@ client::UploadOptions upload_options(const Arguments& a, ProgressBar& progress) 
     client::UploadOptions options;
     options.weld = a.weld;
     options.repair = a.repair;
+    options.unit = a.unit;
     options.on_progress = [&progress](std::uint64_t sent, std::uint64_t total) {
         progress.show("upload", static_cast<double>(sent) / static_cast<double>(total), grouped(sent >> 20) + " MiB");
     };
@@ -26,10 +27,12 @@ client::UploadOptions upload_options(const Arguments& a, ProgressBar& progress) 
 Expected<v1::Session> upload(client::MeshingClient& client, const std::string& session, const Arguments& a, ProgressBar& progress,
                              const std::stop_token& stop) {
     if (!is_representation_file(a.input)) return client.upload_mesh(session, a.input, upload_options(a, progress), {{}, stop});
-    const Expected<Outcome> stored = load_representation(a.input, a.source_faces);
+    const Expected<Outcome> stored = load_representation(a.input, a.source_faces, a.unit);
     if (!stored) return stored.error();
     const std::string bytes = write_mesh(*stored->mesh, MeshFormat::kPlyBinary);
-    return client.upload_mesh(session, std::as_bytes(std::span(bytes)), upload_options(a, progress), {{}, stop});
+    client::UploadOptions options = upload_options(a, progress);
+    options.unit = unit_of(stored->document);
+    return client.upload_mesh(session, std::as_bytes(std::span(bytes)), options, {{}, stop});
 }
 
 }  // namespace

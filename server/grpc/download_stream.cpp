@@ -24,26 +24,43 @@ Expected<service::FileMapping> map_file(std::string_view text, const std::filesy
     return file->map();
 }
 
-/// With mid-side nodes on `surface`. Counts those that are on their edges' chords.
-Expected<std::string> write_order_2(const TriangleMesh& mesh, MeshFormat format, const service::SourceMesh& source,
-                                    std::uint32_t& on_chord) {
-    const Expected<std::shared_ptr<const TriangleMesh>> surface = source.mesh->get();
+/// What a download asked for.
+struct Wanted {
+    service::PickedMesh mesh;
+    MeshFormat format{};
+    std::shared_ptr<const service::SourceMesh> surface;  ///< of order 2: where mid-side nodes go
+    std::optional<LengthUnit> unit;                      ///< of the file's lengths; empty: as the mesh
+};
+
+/// Mid-side nodes on the surface, where they are wanted.
+Expected<std::optional<MidsideNodes>> nodes_of(const TriangleMesh& mesh, const Wanted& wanted) {
+    if (!wanted.surface) return std::optional<MidsideNodes>();
+    const Expected<std::shared_ptr<const TriangleMesh>> surface = wanted.surface->mesh->get();
     if (!surface) return surface.error();
-    const Expected<MidsideNodes> nodes = midside_nodes(mesh, **surface, ExecutionContext({}, 1));
+    Expected<MidsideNodes> nodes = midside_nodes(mesh, **surface, ExecutionContext({}, 1));
     if (!nodes) return nodes.error();
-    on_chord = nodes->on_chord;
-    return write_second_order(mesh, *nodes, format);
+    return std::optional(*std::move(nodes));
 }
 
-/// Order 2 where there is a source to put the nodes on.
-Expected<DownloadSource::File> write_file(const service::PickedMesh& picked, MeshFormat format,
-                                          const service::SourceMesh* surface, const std::filesystem::path& directory) {
-    const Expected<service::OpenedMesh> opened = picked.open();
+Expected<DownloadSource::File> write_file(const Wanted& wanted, const std::filesystem::path& directory) {
+    const Expected<service::OpenedMesh> opened = wanted.mesh.open();
     if (!opened) return opened.error();
     DownloadSource::File file;
     file.mesh = opened->ref;
-    Expected<std::string> text = surface == nullptr ? Expected<std::string>(write_mesh(*opened->mesh, format))
-                                                    : write_order_2(*opened->mesh, format, *surface, file.nodes_on_chord);
+    std::shared_ptr<const TriangleMesh> mesh = opened->mesh;
+    Expected<std::optional<MidsideNodes>> nodes = nodes_of(*mesh, wanted);
+    if (!nodes) return nodes.error();
+    const std::optional<LengthUnit> from = wanted.mesh.unit();
+    const std::optional<LengthUnit> to = wanted.unit ? wanted.unit : from;
+    if (from != to) {
+        auto converted = std::make_shared<TriangleMesh>(*mesh);
+        convert_lengths(converted->positions, *from, *to);
+        if (*nodes) convert_lengths((*nodes)->positions, *from, *to);
+        mesh = std::move(converted);
+    }
+    if (*nodes) file.nodes_on_chord = (*nodes)->on_chord;
+    Expected<std::string> text =
+        *nodes ? write_second_order(*mesh, **nodes, wanted.format) : Expected<std::string>(write_mesh(*mesh, wanted.format, to));
     if (!text) return text.error();
     file.digest = guard::hex_digits(guard::digest_of(*text));
     if (Expected<service::FileMapping> mapped = map_file(*text, directory); mapped) {
@@ -76,6 +93,8 @@ const char* content_type(MeshFormat format) {
         case MeshFormat::kBdf:
         case MeshFormat::kVtkAscii:
             return "text/plain";
+        case MeshFormat::k3mf:
+            return "model/3mf";
         case MeshFormat::kPlyBinary:
         case MeshFormat::kMsh:
         case MeshFormat::kMsh2:
@@ -83,7 +102,7 @@ const char* content_type(MeshFormat format) {
         case MeshFormat::kVtu:
             break;
     }
-    return "application/octet-stream";  // none of them has a registered type
+    return "application/octet-stream";  // these have no registered type
 }
 
 // E.g. "r1-5000.stl", "mesh-1234.ply". A format's name is its extension, with "-ascii" after it where there are two kinds, and a
@@ -107,14 +126,17 @@ Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(ser
     if (!asked) return asked.error();
     const MeshFormat format = asked->value_or(MeshFormat::kStlBinary);
     if (Status possible = check_order(request.order(), format); !possible) return possible.error();
+    const Expected<std::optional<LengthUnit>> unit = wire::from_proto(request.unit());
+    if (!unit) return unit.error();
     const Expected<service::SessionSnapshot> session = service.snapshot(request.session(), caller);
     if (!session) return session.error();
     Expected<service::PickedMesh> mesh = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
     if (!mesh) return mesh.error();
+    if (Status possible = check_unit(format, mesh->unit(), *unit); !possible) return possible.error();
     auto prepared = std::make_shared<Prepared>();
-    const std::shared_ptr<const service::SourceMesh> surface = request.order() == 2 ? session->source : nullptr;
-    const bool taken = service.errand([prepared, wake, mesh = *mesh, format, surface, &options = service.options()] {
-        prepared->put(service::guarded([&] { return write_file(mesh, format, surface.get(), options.temp_directory); }));
+    const Wanted wanted{*mesh, format, request.order() == 2 ? session->source : nullptr, *unit};
+    const bool taken = service.errand([prepared, wake, wanted, &options = service.options()] {
+        prepared->put(service::guarded([&] { return write_file(wanted, options.temp_directory); }));
         wake();
     });
     if (!taken) return Error{Cause::kUnavailable, "the server is shutting down", ""};

@@ -33,7 +33,7 @@ public:
         }
     };
 
-    /// \return NOT_FOUND, NOT_READY, INVALID_OPTION, UNSUPPORTED (order), UNAVAILABLE.
+    /// \return NOT_FOUND, NOT_READY, INVALID_OPTION (also unit), UNSUPPORTED (order), UNAVAILABLE.
     [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
                                                                        const service::Caller& caller,
                                                                        const v1::DownloadMeshRequest& request, const Wake& wake);

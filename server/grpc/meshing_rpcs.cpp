@@ -37,10 +37,12 @@ Status create_session(service::MeshingService& service, const service::Caller& c
     if (!format) return format.error();
     const Expected<std::optional<RepairMode>> repair = wire::from_proto(request.repair());
     if (!repair) return repair.error();
+    const Expected<std::optional<LengthUnit>> unit = wire::from_proto(request.unit());
+    if (!unit) return unit.error();
     const Expected<service::SessionSnapshot> created =
         request.mesh().empty()
             ? service.create_session(caller)
-            : service.create_session(std::as_bytes(std::span(request.mesh())), {*format, request.weld(), *repair}, caller);
+            : service.create_session(std::as_bytes(std::span(request.mesh())), {*format, request.weld(), *repair, *unit}, caller);
     if (!created) return created.error();
     response = to_proto(*created);
     return Done{};
@@ -80,15 +82,16 @@ Status get_quality(service::MeshingService& service, const service::Caller& call
     const Expected<service::OpenedMesh> opened = picked->open();
     if (!opened) return opened.error();
     response = wire::to_proto(opened->quality(), worst_faces(*opened->mesh, worst));
+    response.set_unit(wire::to_proto(picked->unit()));
     if (*profile) *response.mutable_profile() = wire::to_proto(check_profile(*opened->mesh, **profile, worst));
     return Done{};
 }
 
 Status list_features(service::MeshingService& service, const service::Caller& caller, const v1::ListFeaturesRequest& request,
                      v1::ListFeaturesResponse& response) {
-    const auto features = service::list_features_of(service, request.session(), wire::search_of(request), caller);
-    if (!features) return features.error();
-    response = wire::to_proto(*features);
+    const auto found = service::list_features_of(service, request.session(), wire::search_of(request), caller);
+    if (!found) return found.error();
+    response = wire::to_proto(found->features, found->unit);
     return Done{};
 }
 

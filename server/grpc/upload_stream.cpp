@@ -21,7 +21,9 @@ Expected<service::UploadSettings> settings_of(const v1::UploadMeshRequest& first
     if (!format) return format.error();
     const Expected<std::optional<RepairMode>> repair = wire::from_proto(first.repair());
     if (!repair) return repair.error();
-    service::UploadSettings settings{{*format, first.weld(), *repair}, std::nullopt};
+    const Expected<std::optional<LengthUnit>> unit = wire::from_proto(first.unit());
+    if (!unit) return unit.error();
+    service::UploadSettings settings{{*format, first.weld(), *repair, *unit}, std::nullopt};
     if (first.has_size()) settings.size = first.size();
     return settings;
 }
@@ -84,6 +86,7 @@ Status UploadStream::begin() {
     first_.set_format(part_.format());
     first_.set_weld(part_.weld());
     first_.set_repair(part_.repair());
+    first_.set_unit(part_.unit());
     if (part_.has_size()) first_.set_size(part_.size());
     return Done{};
 }
@@ -93,6 +96,7 @@ Status UploadStream::check_repeated() const {
     if (part_.format() != v1::MESH_FORMAT_UNSPECIFIED && part_.format() != first_.format()) return changed("format");
     if (part_.weld() != 0 && part_.weld() != first_.weld()) return changed("weld");
     if (part_.repair() != v1::REPAIR_UNSPECIFIED && part_.repair() != first_.repair()) return changed("repair");
+    if (part_.unit() != v1::LENGTH_UNIT_UNSPECIFIED && part_.unit() != first_.unit()) return changed("unit");
     if (part_.has_size() && (!first_.has_size() || part_.size() != first_.size())) return changed("size");
     return Done{};
 }

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "vsplit/io/mesh_format.h"
+#include "vsplit/io/read_mesh.h"
 
 namespace vsplit::service {
 namespace {
@@ -41,9 +42,11 @@ std::uint64_t memory_of(const MethodOptions& options) {
 }
 
 std::uint64_t memory_to_read(std::span<const std::byte> file, bool repair) {
-    const std::uint64_t faces = file.size() / (detect_format(file) == MeshFormat::kStlBinary ? kStlFace : kOtherFace);
-    return faces * (repair ? kToRepair : kToRead);
+    const std::uint64_t faces = unpacked_size(file) / (detect_format(file) == MeshFormat::kStlBinary ? kStlFace : kOtherFace);
+    return memory_to_read(faces, repair);
 }
+
+std::uint64_t memory_to_read(std::uint64_t faces, bool repair) { return faces * (repair ? kToRepair : kToRead); }
 
 std::uint64_t memory_to_simplify(std::uint64_t faces) { return kToSimplify * faces; }
 

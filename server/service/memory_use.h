@@ -20,6 +20,7 @@ namespace vsplit::service {
 
 /// What reading a file takes while it goes on, the mesh included; a repair takes more.
 [[nodiscard]] std::uint64_t memory_to_read(std::span<const std::byte> file, bool repair);
+[[nodiscard]] std::uint64_t memory_to_read(std::uint64_t faces, bool repair);
 
 /// What a method takes while it runs, the result included, for `faces` after subdivision.
 [[nodiscard]] std::uint64_t memory_to_simplify(std::uint64_t faces);

@@ -99,6 +99,7 @@ JobOutcome MethodJob::make(const MethodRequest& request, const TriangleMesh& mes
     Expected<MethodResult> result = std::visit([&](const auto& options) { return apply(options, mesh); }, request.options);
     if (!result) return explained(result.error());
     if (const std::optional<Error> why = stopped()) return *why;
+    result->unit = source_.unit();
     const auto made = session_->add_representation(request, *std::move(result));
     if (!made) return made.error();
     const Expected<std::shared_ptr<const Levels>> levels = (*made)->levels().get();

@@ -15,16 +15,18 @@ Expected<std::shared_ptr<const SourceMesh>> source_of(const Session& session) {
 
 }  // namespace
 
-Expected<std::vector<ShapeFeature>> list_features_of(MeshingService& service, std::string_view session,
-                                                     const FeatureSearch& search, const Caller& caller) {
+Expected<FeaturesFound> list_features_of(MeshingService& service, std::string_view session, const FeatureSearch& search,
+                                         const Caller& caller) {
     const Expected<std::shared_ptr<Session>> found = service.sessions().find(session, caller.owner);
     if (!found) return found.error();
     const Expected<std::shared_ptr<const SourceMesh>> source = source_of(**found);
     if (!source) return source.error();
-    return guarded([&]() -> Expected<std::vector<ShapeFeature>> {
+    return guarded([&]() -> Expected<FeaturesFound> {
         const Expected<std::shared_ptr<const TriangleMesh>> mesh = (*source)->mesh->get();
         if (!mesh) return mesh.error();
-        return list_features(**mesh, search);
+        Expected<std::vector<ShapeFeature>> features = list_features(**mesh, search);
+        if (!features) return features.error();
+        return FeaturesFound{*std::move(features), (*source)->report.unit};
     });
 }
 
@@ -44,6 +46,7 @@ Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::strin
         if (!made) return made.error();
         if (made->removed.empty()) return FeaturesRemoved{*std::move(made), *before};
         MeshReport report = inspect(made->mesh);
+        report.unit = (*before)->report.unit;
         auto source = make_source(std::move(made->mesh), std::move(report), service.memory());
         if (Status set = (*found)->replace_source(*before, source); !set) return set.error();
         (*found)->touch();

@@ -8,9 +8,14 @@
 
 namespace vsplit::service {
 
+struct FeaturesFound {
+    std::vector<ShapeFeature> features;
+    std::optional<LengthUnit> unit;  ///< of their lengths
+};
+
 /// The features of the session's upload. Heavy: for `errand`. \return NOT_FOUND, NOT_READY, what `list_features` returns.
-[[nodiscard]] Expected<std::vector<ShapeFeature>> list_features_of(MeshingService& service, std::string_view session,
-                                                                   const FeatureSearch& search, const Caller& caller = {});
+[[nodiscard]] Expected<FeaturesFound> list_features_of(MeshingService& service, std::string_view session,
+                                                       const FeatureSearch& search, const Caller& caller = {});
 
 struct FeaturesRemoved {
     FeaturelessMesh made;  ///< its mesh has gone into `source`

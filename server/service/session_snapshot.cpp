@@ -47,6 +47,8 @@ Expected<PickedMesh> PickedMesh::pick(const SessionSnapshot& session, const Mesh
     return picked;
 }
 
+std::optional<LengthUnit> PickedMesh::unit() const { return upload_ ? upload_->report.unit : representation_->figures().unit; }
+
 Status PickedMesh::require_accepted() const {
     if (upload_) return require_manifold(upload_->report);
     return Done{};

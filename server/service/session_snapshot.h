@@ -52,6 +52,9 @@ public:
     /// \return NOT_READY before an upload, NOT_FOUND for an unknown representation. O(representations).
     [[nodiscard]] static Expected<PickedMesh> pick(const SessionSnapshot& session, const MeshRef& ref);
 
+    /// Of its lengths. O(1).
+    [[nodiscard]] std::optional<LengthUnit> unit() const;
+
     /// Whether the methods take it. \return what `require_manifold` returns. O(1).
     [[nodiscard]] Status require_accepted() const;
 

@@ -1,6 +1,7 @@
 #include "service/source_mesh.h"
 
 #include <utility>
+#include <vector>
 
 #include "service/guarded.h"
 #include "service/memory_use.h"
@@ -28,10 +29,19 @@ Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byt
         const Expected<MemoryBudget::Share> room =
             budget.reserve(memory_to_read(bytes, settings.repair.has_value()), "reading this mesh");
         if (!room) return room.error();
-        Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces});
+        std::vector<MemoryBudget::Share> more;
+        const auto make_room = [&](std::uint64_t faces) -> Status {
+            Expected<MemoryBudget::Share> share =
+                budget.reserve(memory_to_read(faces, settings.repair.has_value()), "reading this mesh");
+            if (!share) return share.error();
+            more.push_back(*std::move(share));
+            return Done{};
+        };
+        Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces, settings.unit, make_room});
         if (!read) return read.error();
         Expected<MeshReport> report = inspect_source(read->mesh, read->weld, settings.repair);
         if (!report) return report.error();
+        report->unit = read->unit;
         return make_source(std::move(read->mesh), *std::move(report), budget);
     });
 }

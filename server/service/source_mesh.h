@@ -20,6 +20,7 @@ struct MeshSettings {
     std::optional<MeshFormat> format;    ///< told from the bytes when empty
     double weld = 0;                     ///< length, model units; 0 merges exactly equal vertices
     std::optional<RepairMode> repair{};  ///< after the weld; none when empty
+    std::optional<LengthUnit> unit{};    ///< of the lengths, where the file does not say it
 };
 
 /// Whether `settings` can be obeyed, before any byte is there. \return INVALID_OPTION. O(1).

@@ -247,6 +247,37 @@ TEST_F(CommandLineTest, ABoundThatCannotBeMetIsStatusTwo) {
     EXPECT_TRUE(fs::exists(file("c.obj")));  // done all the same
 }
 
+TEST_F(CommandLineTest, UnitsAreStatedKeptAndConverted) {
+    const std::string frame = mesh_file("frame.off", test::cube_frame());
+    EXPECT_EQ(json_of<v1::MeshSummary>(run({"info", frame, "--json"})).unit(), v1::LENGTH_UNIT_UNSPECIFIED);
+    const CommandResult made =
+        run({"improve", frame, "--subdivide", "0.3", "--faces", "1000", "--unit", "in", "--output-unit", "mm", "--json", "-o",
+             file("frame.vsplit"), "-o", file("frame.3mf"), "-o", file("frame.ply")});
+    EXPECT_EQ(made.exit_status, 0) << made.err;
+    EXPECT_EQ(json_of<v1::Representation>(made).unit(), v1::INCH);
+    const auto told = read_mesh_file(file("frame.3mf"), {});
+    const auto plain = read_mesh_file(file("frame.ply"), {});
+    ASSERT_TRUE(told && plain) << told.error().message;
+    EXPECT_EQ(told->unit, LengthUnit::kMillimetre);
+    EXPECT_EQ(told->mesh, plain->mesh);
+    const auto stored = load_mrr(file("frame.vsplit"));
+    ASSERT_TRUE(stored);
+    TriangleMesh same = mesh_at(stored->mrr, stored->mrr.level_for(stored->faces));
+    convert_lengths(same.positions, LengthUnit::kInch, LengthUnit::kMillimetre);
+    EXPECT_EQ(same.positions, plain->mesh.positions) << "the file of the representation is in inches";
+
+    EXPECT_EQ(json_of<v1::Representation>(run({"info", file("frame.vsplit"), "--json"})).unit(), v1::INCH) << "it says so";
+    EXPECT_NE(run({"info", file("frame.vsplit"), "--unit", "mm"}).err.find("in in, and mm is stated"), std::string::npos);
+    EXPECT_NE(run({"info", file("frame.3mf"), "--unit", "in"}).err.find("in mm, and in is stated"), std::string::npos);
+    const CommandResult compared = run({"quality", file("frame.vsplit"), "--against", file("frame.3mf")});
+    EXPECT_NE(compared.out.find("diagonal "), std::string::npos) << compared.err;
+    EXPECT_NE(compared.out.find(" in\n"), std::string::npos) << compared.out;
+    google::protobuf::Struct document;
+    ASSERT_TRUE(wire::from_json(run({"quality", file("frame.vsplit"), "--against", file("frame.3mf"), "--json"}).out, document));
+    EXPECT_EQ(document.fields().at("unit").string_value(), "INCH");
+    EXPECT_LT(document.fields().at("deviationMax").number_value(), 1e-4) << "one was converted to the other's unit";
+}
+
 TEST_F(CommandLineTest, FormatOverridesTheExtension) {
     const std::string cube = mesh_file("cube.obj", test::cube());
     ASSERT_EQ(run({"info", cube, "-o", file("x.dat"), "--format", "ply-ascii"}).exit_status, 0);
@@ -325,6 +356,10 @@ TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
         {{"control", cube, "--min-size", "3", "--max-size", "2"}, "at most max_size, which is 2 (--min-size)"},
         {{"control", cube, "--subdivisions", "13"}, "(--subdivisions)"},
         {{"info", cube, "--weld", "-1"}, "(--weld)"},
+        {{"info", cube, "--unit", "yd"}, "accepted is one of cm, ft, in, m, mm, um"},
+        {{"improve", cube, "--subdivide", "0.3", "-o", file("cube.ply"), "--output-unit", "m"}, "(--unit)"},
+        {{"info", cube, "-o", file("cube.3mf")}, "a 3mf file says its unit"},
+        {{"info", "--unit", "mm", "--session", "s", "--server", "127.0.0.1:1"}, "(--unit)"},
         {{"improve", touching}, "NON_MANIFOLD: the boundary touches itself at vertex 3"},  // unused ones are dropped
         {{"improve", file("none.stl")}, "NOT_FOUND"},
         {{"info", file("none.vsplit")}, "NOT_FOUND"},

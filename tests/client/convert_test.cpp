@@ -185,6 +185,7 @@ TEST(ConvertTest, UnknownEnumNumbersAreNamedErrors) {
     EXPECT_EQ(from_proto(static_cast<v1::MeshFormat>(99)).error().field, "format");
     EXPECT_EQ(from_proto(static_cast<v1::RecordEncoding>(99)).error().field, "encoding");
     EXPECT_EQ(from_proto(static_cast<v1::Repair>(99)).error().cause, Cause::kInvalidOption);
+    EXPECT_EQ(from_proto(static_cast<v1::LengthUnit>(99)).error().field, "unit");
 }
 
 TEST(ConvertTest, FormatsSurviveTheWay) {
@@ -194,6 +195,15 @@ TEST(ConvertTest, FormatsSurviveTheWay) {
     }
     EXPECT_EQ(to_proto(std::optional<MeshFormat>()), v1::MESH_FORMAT_UNSPECIFIED);
     EXPECT_EQ(*from_proto(v1::MESH_FORMAT_UNSPECIFIED), std::nullopt);
+}
+
+TEST(ConvertTest, UnitsSurviveTheWay) {
+    for (const LengthUnit unit : length_units()) {
+        EXPECT_NE(to_proto(std::optional(unit)), v1::LENGTH_UNIT_UNSPECIFIED);
+        EXPECT_EQ(*from_proto(to_proto(std::optional(unit))), unit);
+    }
+    EXPECT_EQ(to_proto(std::optional<LengthUnit>()), v1::LENGTH_UNIT_UNSPECIFIED);
+    EXPECT_EQ(*from_proto(v1::LENGTH_UNIT_UNSPECIFIED), std::nullopt);
 }
 
 TEST(ConvertTest, RepairsAreTold) {

@@ -22,6 +22,50 @@ TEST(ReportTest, TellsWhatAMeshIs) {
     EXPECT_FALSE(has(text, "worst face"));
 }
 
+TEST(ReportTest, EveryLengthHasItsUnit) {
+    const TriangleMesh mesh = test::sliver_cylinder(12, 10);
+    MeshReport measured = inspect(mesh);
+    EXPECT_TRUE(has(report(wire::to_proto(measured), false), "unit              not known\n"));
+    measured.unit = LengthUnit::kInch;
+    v1::MeshSummary summary = wire::to_proto(measured);
+    *summary.mutable_quality() = wire::to_proto(measured.quality, worst_faces(mesh, 4));
+    summary.mutable_quality()->set_deviation_max(0.5);
+    const std::string text = report(summary, true);
+    EXPECT_TRUE(has(text, "unit              in\n")) << text;
+    EXPECT_TRUE(has(text, "deviation         0.5 in\n")) << text;
+    EXPECT_TRUE(has(text, "    size, in  centroid, in\n")) << text;
+    for (const std::string line : {"box", "longest edge"}) {
+        const std::size_t at = text.find("\n" + line);
+        ASSERT_NE(at, std::string::npos) << text;
+        EXPECT_TRUE(text.substr(at + 1, text.find('\n', at + 1) - at - 1).ends_with(" in")) << text;
+    }
+
+    v1::Representation made;
+    made.set_unit(v1::MILLIMETRE);
+    made.mutable_control_options()->set_tolerance(0.1);
+    made.mutable_control_options()->set_max_size(2);
+    made.mutable_control_options()->set_min_size(1);
+    v1::Violation& size = *made.add_violations();
+    size.set_bound("max_size");
+    size.set_worst(3);
+    v1::Violation& valence = *made.add_violations();
+    valence.set_bound("max_valence");
+    valence.set_worst(9);
+    const std::string told = report(made, false);
+    for (const std::string line : {"tolerance         0.1 mm\n", "size bound        2 mm\n", "least size        1 mm\n",
+                                   "max_size broken by 0 faces, worst 3 mm; max_valence broken by 0 vertices, worst 9\n"})
+        EXPECT_TRUE(has(told, line)) << told;
+
+    v1::ListFeaturesResponse features;
+    features.set_unit(v1::METRE);
+    features.add_features();
+    EXPECT_TRUE(has(report(features, false), "diameter, m    depth, m   faces  centre, m; axis\n")) << report(features, false);
+    Comparison comparison;
+    comparison.unit = LengthUnit::kMicrometre;
+    EXPECT_TRUE(has(report(comparison, false), "diagonal          0 um\n")) << report(comparison, false);
+    EXPECT_TRUE(has(report(comparison, false), "to source         0 to 0 um\n")) << report(comparison, false);
+}
+
 TEST(ReportTest, TellsWhereThereAreNoCreasesToCompare) {
     Comparison comparison;
     comparison.creases.source_creases = 1;

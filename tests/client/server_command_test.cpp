@@ -159,6 +159,26 @@ TEST_F(ServerCommandTest, DescriptionsAreWhatTheyAreLocally) {
     EXPECT_EQ(sessions(), 0);
 }
 
+TEST_F(ServerCommandTest, UnitsAreWhatTheyAreLocally) {
+    const std::string input = mesh_file("frame.off", test::cube_frame());
+    const auto improve = [&](const std::string& name) {
+        return std::vector<std::string>{"improve", input,           "--subdivide", "0.2", "--faces",           "1000",  "--unit",
+                                        "in",      "--output-unit", "mm",          "-o",  file(name + ".3mf"), "--json"};
+    };
+    const CommandResult here = locally(improve("here"));
+    const CommandResult there = remotely(improve("there"));
+    ASSERT_EQ(there.exit_status, 0) << there.err;
+    EXPECT_EQ(representation_of(there).unit(), v1::INCH);
+    EXPECT_EQ(comparable(representation_of(there)), comparable(representation_of(here)));
+    EXPECT_EQ(test::file_content(file("there.3mf")), test::file_content(file("here.3mf")));
+    const std::vector<std::string> told{"quality", file("here.3mf"), "-o", file("copy.off"), "--output-unit", "m"};
+    EXPECT_EQ(remotely(told).out, locally(told).out);
+    const CommandResult unknown = remotely({"info", input, "-o", file("copy.off"), "--output-unit", "m"});
+    EXPECT_EQ(unknown.exit_status, 1);
+    EXPECT_NE(unknown.err.find("(--unit)"), std::string::npos) << unknown.err;
+    EXPECT_EQ(sessions(), 0);
+}
+
 TEST_F(ServerCommandTest, QualityOfARepresentationAtAnyResolution) {
     const std::string input = mesh_file("frame.off", test::cube_frame());
     const CommandResult improved = remotely({"improve", input, "--subdivide", "0.2", "--keep", "--json"});

@@ -39,7 +39,7 @@ TEST(MeshFormatTest, ExtensionsInAnyCase) {
         {"a.off", MeshFormat::kOff},       {"a.msh", MeshFormat::kMsh},
         {"a.inp", MeshFormat::kInp},       {"a.bdf", MeshFormat::kBdf},
         {"a.NAS", MeshFormat::kBdf},       {"a.vtk", MeshFormat::kVtk},
-        {"a.vtu", MeshFormat::kVtu}};
+        {"a.vtu", MeshFormat::kVtu},       {"part.3MF", MeshFormat::k3mf}};
     for (const auto& [name, format] : cases) {
         const Expected<MeshFormat> found = format_by_extension(name);
         ASSERT_TRUE(found) << name;

@@ -49,7 +49,7 @@ TEST(SolverFormatsTest, RegionsComeBackFromEveryFormatThatHasThem) {
     const TriangleMesh mesh = grouped_torus();
     for (const MeshFormat format :
          {MeshFormat::kMsh, MeshFormat::kMshAscii, MeshFormat::kMsh2, MeshFormat::kMsh2Ascii, MeshFormat::kInp, MeshFormat::kBdf,
-          MeshFormat::kVtk, MeshFormat::kVtkAscii, MeshFormat::kVtu}) {
+          MeshFormat::kVtk, MeshFormat::kVtkAscii, MeshFormat::kVtu, MeshFormat::k3mf}) {
         const TriangleMesh same = must_read(write_mesh(mesh, format));
         EXPECT_EQ(same.faces, mesh.faces) << format_name(format);
         EXPECT_EQ(same.regions, mesh.regions) << format_name(format);
@@ -59,7 +59,7 @@ TEST(SolverFormatsTest, RegionsComeBackFromEveryFormatThatHasThem) {
 
 TEST(SolverFormatsTest, SetsComeBackFromFormatsThatNameThem) {
     const TriangleMesh mesh = grouped_torus();
-    for (const MeshFormat format : {MeshFormat::kMsh, MeshFormat::kMshAscii, MeshFormat::kInp}) {
+    for (const MeshFormat format : {MeshFormat::kMsh, MeshFormat::kMshAscii, MeshFormat::kInp, MeshFormat::k3mf}) {
         EXPECT_EQ(members(must_read(write_mesh(mesh, format))), members(mesh)) << format_name(format);
     }
     std::map<std::string, std::vector<std::uint32_t>> parts = members(mesh);

@@ -14,7 +14,7 @@ using namespace vsplit;
 // The corpus knows them by their number here.
 constexpr std::array kFormats = {MeshFormat::kStlBinary, MeshFormat::kStlAscii, MeshFormat::kObj, MeshFormat::kPlyBinary,
                                  MeshFormat::kPlyAscii,  MeshFormat::kOff,      MeshFormat::kMsh, MeshFormat::kInp,
-                                 MeshFormat::kBdf,       MeshFormat::kVtk,      MeshFormat::kVtu};
+                                 MeshFormat::kBdf,       MeshFormat::kVtk,      MeshFormat::kVtu, MeshFormat::k3mf};
 
 void check_mesh(const TriangleMesh& mesh) {
     fuzz::check(!mesh.faces.empty(), "a mesh that was read has faces");
@@ -28,7 +28,7 @@ void check_mesh(const TriangleMesh& mesh) {
 
 /// What was read once and is written without loss reads back as it is.
 void check_round_trip(const TriangleMesh& mesh) {
-    for (const MeshFormat format : {MeshFormat::kPlyBinary, MeshFormat::kVtu}) {
+    for (const MeshFormat format : {MeshFormat::kPlyBinary, MeshFormat::kVtu, MeshFormat::k3mf}) {
         const std::string bytes = write_mesh(mesh, format);
         const Expected<ReadResult> again = read_mesh(std::as_bytes(std::span(bytes)), {});
         fuzz::check(again && again->mesh.positions == mesh.positions && again->mesh.faces == mesh.faces,

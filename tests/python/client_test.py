@@ -69,6 +69,16 @@ class ClientTest(unittest.TestCase):
         self.assertEqual(len(self.client.features(session)), len(holes) - 6)
         self.client.delete(session)
 
+    def test_units_are_stated_and_converted(self):
+        session = self.client.upload(DATA / "bracket.stl", unit="INCH")
+        inches, _ = read_ply(self.client.download(session, format="PLY"))
+        millimetres, _ = read_ply(self.client.download(session, format="PLY", unit="MILLIMETRE"))
+        np.testing.assert_array_equal(millimetres, inches * 127 / 5)
+        with self.assertRaises(grpc.RpcError) as refused:
+            self.client.download(self.session, unit="METRE")
+        self.assertIn("not known", refused.exception.details())
+        self.client.delete(session)
+
     def test_other_libraries_take_what_it_gives(self):
         mesh = self.client.improve(self.session, faces=3000)
         points, cells = mesh.meshio_at(1000)

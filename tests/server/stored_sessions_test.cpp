@@ -40,8 +40,10 @@ struct ServerRun {
         EXPECT_TRUE(restored) << restored.error().message;
     }
 
-    std::shared_ptr<const service::SourceMesh> source_of(const TriangleMesh& mesh) {
-        return service::make_source(mesh, inspect(mesh), memory);
+    std::shared_ptr<const service::SourceMesh> source_of(const TriangleMesh& mesh, std::optional<LengthUnit> unit = {}) {
+        MeshReport report = inspect(mesh);
+        report.unit = unit;
+        return service::make_source(mesh, std::move(report), memory);
     }
 
     std::string told;
@@ -117,8 +119,10 @@ TEST_F(StoredSessionsTest, ASessionIsTheSameAfterARestart) {
     std::optional<SessionSnapshot> before;
     {
         ServerRun run(scratch_.path(), memory_);
-        const auto session = *run.store.create(run.source_of(mesh), "somebody");
-        ASSERT_TRUE(session->add_representation({{"", mesh.face_count()}, improving}, improved(mesh, {.faces = 400})));
+        const auto session = *run.store.create(run.source_of(mesh, LengthUnit::kInch), "somebody");
+        MethodResult first = improved(mesh, {.faces = 400});
+        first.unit = LengthUnit::kInch;
+        ASSERT_TRUE(session->add_representation({{"", mesh.face_count()}, improving}, std::move(first)));
         MethodResult second = controlled(mesh, {.min_stretch = 0.999, .max_valence = 7});
         EXPECT_FALSE(second.violations.empty());
         ASSERT_TRUE(session->add_representation({{"r1", 400}, controlling}, std::move(second)));
@@ -134,6 +138,9 @@ TEST_F(StoredSessionsTest, ASessionIsTheSameAfterARestart) {
     const SessionSnapshot after = (*session)->snapshot();
     EXPECT_EQ(after.create_time, before->create_time);
     EXPECT_EQ(**after.source->mesh->get(), mesh);
+    EXPECT_EQ(after.source->report.unit, LengthUnit::kInch);
+    EXPECT_EQ(after.representations.at(0)->figures().unit, LengthUnit::kInch);
+    EXPECT_EQ(after.representations.at(1)->figures().unit, std::nullopt);
     EXPECT_EQ(after.source->report.closed, before->source->report.closed);
     EXPECT_EQ(after.source->report.genus, before->source->report.genus);
     EXPECT_EQ(after.source->report.findings.size(), before->source->report.findings.size());

@@ -36,6 +36,7 @@ v1::UploadMeshRequest first_message(const std::string& session, const UploadOpti
     message.set_format(wire::to_proto(options.format));
     message.set_weld(options.weld);
     message.set_repair(options.repair);
+    message.set_unit(wire::to_proto(options.unit));
     if (size) message.set_size(*size);
     return message;
 }
@@ -57,6 +58,7 @@ Status send_parts(grpc::ClientWriter<v1::UploadMeshRequest>& writer, v1::UploadM
         message.clear_format();
         message.clear_weld();
         message.clear_repair();
+        message.clear_unit();
         message.clear_size();
     }
 }

@@ -32,15 +32,19 @@ class Client:
     def close(self):
         self._channel.close()
 
-    def upload(self, mesh, on_progress=None):
-        """A new session with a mesh: a path, or the bytes of a file. Returns the session's id."""
+    def upload(self, mesh, on_progress=None, *, unit="LENGTH_UNIT_UNSPECIFIED"):
+        """A new session with a mesh: a path, or the bytes of a file. Returns the session's id.
+
+        `unit`: of its lengths, where the file does not say it, e.g. "MILLIMETRE".
+        """
         data = mesh if isinstance(mesh, bytes) else pathlib.Path(mesh).read_bytes()
         session = self._stub.CreateSession(v1.CreateSessionRequest()).id
 
         def parts():
             for offset in range(0, len(data), _PART):
                 part = data[offset:offset + _PART]
-                yield v1.UploadMeshRequest(session=session, size=len(data), offset=offset, data=part)
+                yield v1.UploadMeshRequest(
+                    session=session, size=len(data), offset=offset, data=part, unit=v1.LengthUnit.Value(unit))
                 if on_progress:
                     on_progress(offset + len(part), len(data))
 
@@ -68,10 +72,11 @@ class Client:
         """The same as mesh.at(faces)."""
         return mesh.at(faces)
 
-    def download(self, session, representation="", faces=0, format="STL"):
-        """The bytes of a mesh file."""
+    def download(self, session, representation="", faces=0, format="STL", unit="LENGTH_UNIT_UNSPECIFIED"):
+        """The bytes of a mesh file; its lengths in `unit`, by default the session's."""
         request = v1.DownloadMeshRequest(
-            session=session, representation=representation, faces=faces, format=v1.MeshFormat.Value(format))
+            session=session, representation=representation, faces=faces, format=v1.MeshFormat.Value(format),
+            unit=v1.LengthUnit.Value(unit))
         return b"".join(chunk.data for chunk in self._stub.DownloadMesh(request))
 
     def features(self, session, **options):

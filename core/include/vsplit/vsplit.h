@@ -16,6 +16,7 @@
 #include "vsplit/io/write_mesh.h"
 #include "vsplit/mesh/finding.h"
 #include "vsplit/mesh/inspect.h"
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/mesh/triangle_mesh.h"
 #include "vsplit/mesh/weld.h"
 #include "vsplit/method/control.h"

@@ -131,6 +131,7 @@ std::optional<MeshFormat> detect_for_solvers(std::string_view text) {
 std::optional<MeshFormat> detect_format(Bytes bytes) {
     if (has_stl_length(bytes)) return MeshFormat::kStlBinary;
     const std::string_view window = as_text(bytes.first(std::min(bytes.size(), kWindow)));
+    if (window.starts_with("PK\x03\x04")) return MeshFormat::k3mf;  // no other format that is read is a zip archive
     if (window.starts_with("ply\n") || window.starts_with("ply\r\n")) return kind_of_ply(window);
     if (const std::optional<MeshFormat> format = detect_for_solvers(without_mark(window))) return format;
     if (const std::optional<MeshFormat> format = detect_by_word(without_mark(window))) return format;

@@ -15,7 +15,7 @@ struct FormatName {
     std::string_view extension;  // empty where another format has it
 };
 
-constexpr std::array<FormatName, 15> kFormats = {{{"stl", MeshFormat::kStlBinary, ".stl"},
+constexpr std::array<FormatName, 16> kFormats = {{{"stl", MeshFormat::kStlBinary, ".stl"},
                                                   {"stl-ascii", MeshFormat::kStlAscii, ""},
                                                   {"obj", MeshFormat::kObj, ".obj"},
                                                   {"ply", MeshFormat::kPlyBinary, ".ply"},
@@ -29,7 +29,8 @@ constexpr std::array<FormatName, 15> kFormats = {{{"stl", MeshFormat::kStlBinary
                                                   {"bdf", MeshFormat::kBdf, ".bdf"},
                                                   {"vtk", MeshFormat::kVtk, ".vtk"},
                                                   {"vtk-ascii", MeshFormat::kVtkAscii, ""},
-                                                  {"vtu", MeshFormat::kVtu, ".vtu"}}};
+                                                  {"vtu", MeshFormat::kVtu, ".vtu"},
+                                                  {"3mf", MeshFormat::k3mf, ".3mf"}}};
 
 /// "a, b, c".
 std::string list_of(std::string_view FormatName::*column) {

@@ -1,9 +1,11 @@
 #include "vsplit/io/read_mesh.h"
 
+#include <algorithm>
 #include <string>
 
 #include "base/mapped_file.h"
 #include "io/readers.h"
+#include "io/zip_reader.h"
 #include "mesh/drop_unused.h"
 
 namespace vsplit {
@@ -33,7 +35,7 @@ Expected<MeshFormat> choose_format(std::span<const std::byte> bytes, std::option
         return Error{
             Cause::kUnknownFormat,
             "byte 0: the bytes are of no format that is read: STL (binary, ASCII), OBJ, PLY (binary, ASCII), OFF, MSH, INP, "
-            "BDF, VTK, VTU",
+            "BDF, VTK, VTU, 3MF",
             ""};
     }
     if (!detected) return *asked;
@@ -46,7 +48,10 @@ Expected<MeshFormat> choose_format(std::span<const std::byte> bytes, std::option
     return *detected;
 }
 
-Expected<TriangleMesh> read_as(MeshFormat format, std::span<const std::byte> bytes, std::uint32_t max_faces) {
+/// `unit` becomes what the file says, where it says one.
+Expected<TriangleMesh> read_as(MeshFormat format, std::span<const std::byte> bytes, const ReadOptions& options,
+                               std::optional<LengthUnit>& unit) {
+    const std::uint32_t max_faces = options.max_faces;
     switch (format) {
         case MeshFormat::kStlBinary:
             return read_stl_binary(bytes, max_faces);
@@ -71,6 +76,8 @@ Expected<TriangleMesh> read_as(MeshFormat format, std::span<const std::byte> byt
             return read_vtk(bytes, max_faces);
         case MeshFormat::kVtu:
             return read_vtu(bytes, max_faces);
+        case MeshFormat::k3mf:
+            return read_3mf(bytes, options, unit);
         case MeshFormat::kOff:
             break;
     }
@@ -92,8 +99,11 @@ Expected<ReadResult> read_mesh(std::span<const std::byte> bytes, const ReadOptio
     if (bytes.empty()) return Error{Cause::kEmptyInput, "byte 0: the file is empty", ""};
     const Expected<MeshFormat> format = choose_format(bytes, options.format);
     if (!format) return format.error();
-    Expected<TriangleMesh> mesh = read_as(*format, bytes, options.max_faces);
+    std::optional<LengthUnit> told;
+    Expected<TriangleMesh> mesh = read_as(*format, bytes, options, told);
     if (!mesh) return mesh.error();
+    const Expected<std::optional<LengthUnit>> unit = agreed_unit(told, options.unit);
+    if (!unit) return unit.error();
     if (mesh->faces.empty()) {
         return Error{Cause::kEmptyInput, "the file has " + std::to_string(mesh->vertex_count()) + " vertices, but no face", ""};
     }
@@ -105,7 +115,13 @@ Expected<ReadResult> read_mesh(std::span<const std::byte> bytes, const ReadOptio
                      "each of the file's " + std::to_string(faces) + " faces has two equal corners after the weld; none is left",
                      ""};
     }
-    return ReadResult{*std::move(mesh), *format, *counts};
+    return ReadResult{*std::move(mesh), *format, *counts, *unit};
+}
+
+std::uint64_t unpacked_size(std::span<const std::byte> bytes) {
+    if (detect_format(bytes) != MeshFormat::k3mf) return bytes.size();
+    const Expected<ZipReader> archive = ZipReader::open(bytes);
+    return archive ? std::max<std::uint64_t>(bytes.size(), archive->unpacked_size()) : bytes.size();
 }
 
 Expected<ReadResult> read_mesh_file(const std::filesystem::path& path, const ReadOptions& options) {

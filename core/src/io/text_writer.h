@@ -30,6 +30,7 @@ public:
 
     TextWriter& operator<<(const Vec3& point) { return *this << point.x() << " " << point.y() << " " << point.z(); }
 
+    [[nodiscard]] std::size_t size() const { return text_.size(); }
     [[nodiscard]] std::string take() { return std::move(text_); }
 
 private:

@@ -34,7 +34,7 @@ std::string write_elements(const Elements& elements, MeshFormat format) {
 
 }  // namespace
 
-std::string write_mesh(const TriangleMesh& mesh, MeshFormat format) {
+std::string write_mesh(const TriangleMesh& mesh, MeshFormat format, std::optional<LengthUnit> unit) {
     switch (format) {
         case MeshFormat::kStlBinary:
             return write_stl_binary(mesh);
@@ -48,10 +48,26 @@ std::string write_mesh(const TriangleMesh& mesh, MeshFormat format) {
             return write_ply_ascii(mesh);
         case MeshFormat::kOff:
             return write_off(mesh);
+        case MeshFormat::k3mf:
+            return write_3mf(mesh, unit);
         default:
             break;
     }
     return write_elements(Elements(mesh), format);
+}
+
+Status check_unit(MeshFormat format, std::optional<LengthUnit> unit, std::optional<LengthUnit> asked) {
+    if (unit) return Done{};
+    const char* const remedy = "; read the mesh again and state its unit";
+    if (asked) {
+        return Error{Cause::kInvalidOption,
+                     "lengths cannot be converted to " + std::string(unit_symbol(*asked)) +
+                         ", as the unit of the mesh is not known" + remedy,
+                     "unit"};
+    }
+    if (format != MeshFormat::k3mf) return Done{};
+    return Error{Cause::kInvalidOption, std::string("a 3mf file says its unit, and that of the mesh is not known") + remedy,
+                 "unit"};
 }
 
 bool has_second_order(MeshFormat format) {
@@ -76,8 +92,9 @@ Status write_second_order_file(const TriangleMesh& mesh, const MidsideNodes& nod
     return write_file(path, *bytes);
 }
 
-Status write_mesh_file(const TriangleMesh& mesh, MeshFormat format, const std::filesystem::path& path) {
-    return write_file(path, write_mesh(mesh, format));
+Status write_mesh_file(const TriangleMesh& mesh, MeshFormat format, const std::filesystem::path& path,
+                       std::optional<LengthUnit> unit) {
+    return write_file(path, write_mesh(mesh, format, unit));
 }
 
 }  // namespace vsplit

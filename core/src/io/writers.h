@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
@@ -23,6 +25,7 @@ class Elements;
 [[nodiscard]] std::string write_bdf(const Elements& elements);
 [[nodiscard]] std::string write_vtk(const Elements& elements, bool text);
 [[nodiscard]] std::string write_vtu(const Elements& elements);
+[[nodiscard]] std::string write_3mf(const TriangleMesh& mesh, std::optional<LengthUnit> unit);
 
 /// The set of all elements in an input deck; a reader makes no region of it.
 inline constexpr std::string_view kAllElements = "Eall";

@@ -35,6 +35,7 @@ Expected<std::optional<XmlTag>> XmlTags::next() {
         go_to(end == std::string_view::npos ? text_.size() : end + 1);
     }
     XmlTag tag;
+    tag.attributes.reserve(4);
     tag.line = line_;
     go_to(at_ + 1);
     const std::size_t end = std::min(text_.find_first_of(" \t\r\n/>", at_ + 1), text_.size());

@@ -10,7 +10,7 @@
 
 namespace vsplit {
 
-/// A tag of XML as VTK's files have it.
+/// A tag of XML as files of meshes have it.
 struct XmlTag {
     std::string_view name;  ///< "/Piece" for </Piece>
     bool closed = false;    ///< <Points/>
@@ -26,7 +26,8 @@ struct XmlTag {
 /// before bytes that are none.
 class XmlTags {
 public:
-    explicit XmlTags(std::string_view text) : text_(text) {}
+    /// `line`: the number of the first.
+    explicit XmlTags(std::string_view text, std::size_t line = 1) : text_(text), line_(line) {}
 
     /// The next tag; empty at the end of the file. \return MALFORMED_INPUT, TRUNCATED_INPUT with the line.
     [[nodiscard]] Expected<std::optional<XmlTag>> next();
@@ -41,7 +42,7 @@ private:
 
     std::string_view text_;
     std::size_t at_ = 0;
-    std::size_t line_ = 1;
+    std::size_t line_;
 };
 
 }  // namespace vsplit

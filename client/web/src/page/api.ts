@@ -6,6 +6,8 @@ import { problemFrom, problemOf, unreachable } from "../shared/problem";
 export interface UploadOptions {
   repair: string;
   weld: number;
+  /** A LengthUnit's name; empty: as the file says. */
+  unit: string;
 }
 
 function read<Schema extends DescMessage>(schema: Schema, json: JsonValue): MessageShape<Schema> {
@@ -21,6 +23,7 @@ async function get<Schema extends DescMessage>(schema: Schema, path: string): Pr
 /** Creates a session with a mesh. XMLHttpRequest, since fetch does not tell how much has gone out. */
 export function upload(file: Blob, options: UploadOptions, sent: (share: number) => void, signal: AbortSignal): Promise<Session> {
   const query = new URLSearchParams({ repair: options.repair, weld: String(options.weld) });
+  if (options.unit) query.set("unit", options.unit);
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
     request.open("POST", `/v1/sessions?${query}`);

@@ -3,8 +3,8 @@ import { element, figure } from "./dom";
 
 const steps = 24;
 
-/** What the colours mean. */
-export function legend(by: ColourBy, range: Range): HTMLElement {
+/** What the colours mean; lengths are in `unit`, empty where it is not known. */
+export function legend(by: ColourBy, range: Range, unit: string): HTMLElement {
   const ramp = new Ramp(by, range);
   const bar = element("span", { class: "bar", "aria-hidden": "true" });
   const [low, high] = range;
@@ -13,7 +13,7 @@ export function legend(by: ColourBy, range: Range): HTMLElement {
     part.style.background = ramp.cssAt((n + 0.5) / steps);
     bar.append(part);
   }
-  const words = { stretch: "stretch; red under 0.2", size: "longest edge, model units; logarithmic", valence: "edges at a vertex" }[by];
+  const words = { stretch: "stretch; red under 0.2", size: `longest edge, ${unit || "model units"}; logarithmic`, valence: "edges at a vertex" }[by];
   // Stretch has these bounds, and sizes reach from the one to the other; a valence may be beyond.
   const [from, to] = by === "valence" ? [`≤ ${low}`, `≥ ${high}`] : [figure(low, 3), figure(high, 3)];
   return element("div", {}, element("span", {}, from), bar, element("span", {}, to), element("span", { class: "hint" }, words));

@@ -9,7 +9,7 @@ import { check, clear, pointAt } from "./number_field";
 import { hideProblem, showProblem, startProblems } from "./problems";
 import { ProgressBar } from "./progress";
 import { samples } from "./samples";
-import { formatsOf, methodOptions, type Contract } from "./schema";
+import { formatLabel, formatsOf, methodOptions, type Contract } from "./schema";
 import { startTheme } from "./theme";
 import { startToken } from "./token";
 import { Viewer, type View } from "./viewer";
@@ -62,7 +62,7 @@ async function send(get: (signal: AbortSignal) => Promise<Blob>, name: string, s
   const progress = new ProgressBar(find("upload"), () => find("file"), () => stop.abort());
   progress.show("upload", 0);
   try {
-    const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(weld.value) };
+    const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(weld.value), unit: find<HTMLSelectElement>("unit").value };
     const session = await upload(await get(stop.signal), options, (share) => progress.show(share < 1 ? "upload" : "inspect", share), stop.signal);
     if (sending === stop) bench.replace(session, name, sample);
   } catch (error) {
@@ -163,7 +163,7 @@ async function startForms(): Promise<void> {
     forms.push(form);
   }
   const format = find<HTMLSelectElement>("format");
-  for (const name of formatsOf(contract)) format.append(element("option", { value: name }, name.toLowerCase().replace(/_/g, " ")));
+  for (const name of formatsOf(contract)) format.append(element("option", { value: name }, formatLabel(name)));
   format.addEventListener("change", updateDownload);
   enableForms();
   find("download").addEventListener("click", (event) => {

@@ -1,5 +1,6 @@
 import type { Figures, Spread } from "../shared/protocol";
 import { Ramp } from "../shared/colours";
+import { withUnit } from "../shared/units";
 import { count, element, figure } from "./dom";
 
 export interface Columns {
@@ -7,22 +8,25 @@ export interface Columns {
   result?: Figures;
   /** Measured distance of the result to the source. */
   deviation?: number;
+  /** Of lengths; empty where it is not known. */
+  unit: string;
 }
 
-const rows: [string, (f: Figures) => string][] = [
+const rows: [string, (f: Figures, unit: string) => string][] = [
   ["Faces", (f) => count(f.faces)],
   ["Stretch, mean", (f) => f.stretchMean.toFixed(3)],
   ["Stretch, min", (f) => f.stretchMin.toFixed(3)],
   ["Faces under 0.2", (f) => count(f.facesBelow02)],
   ["Valence, max", (f) => count(f.valenceMax)],
-  ["Size, max", (f) => figure(f.sizeMax)],
+  ["Size, max", (f, unit) => withUnit(figure(f.sizeMax), unit)],
 ];
 
-export function qualityTable({ source, result, deviation }: Columns): HTMLElement {
-  const cell = (figures: Figures | undefined, text: (f: Figures) => string): HTMLElement => element("td", {}, figures ? text(figures) : "–");
+export function qualityTable({ source, result, deviation, unit }: Columns): HTMLElement {
+  const cell = (figures: Figures | undefined, text: (f: Figures, unit: string) => string): HTMLElement =>
+    element("td", {}, figures ? text(figures, unit) : "–");
   const body = element("tbody");
   for (const [name, text] of rows) body.append(element("tr", {}, element("th", { scope: "row" }, name), cell(source, text), cell(result, text)));
-  const distance = element("td", {}, deviation === undefined ? "–" : figure(deviation));
+  const distance = element("td", {}, deviation === undefined ? "–" : withUnit(figure(deviation), unit));
   body.append(element("tr", {}, element("th", { scope: "row" }, "Deviation, max"), element("td", {}, "–"), distance));
   const head = element("tr", {}, element("td"), element("th", { scope: "col" }, "Input"), element("th", { scope: "col" }, "Result"));
   return element("table", {}, element("thead", {}, head), body);
@@ -35,9 +39,10 @@ const spreads: [string, keyof Figures["spread"]][] = [
 ];
 
 /** Least, mean and largest of what faces and vertices are measured by. */
-export function spreadTable({ source, result }: Columns): HTMLElement {
+export function spreadTable({ source, result, unit }: Columns): HTMLElement {
   const words = (value: number, of: keyof Figures["spread"]): string => (of === "stretch" ? value.toFixed(2) : figure(value, 3));
-  const text = (spread: Spread, of: keyof Figures["spread"]): string => spread.map((value) => words(value, of)).join(" / ");
+  const text = (spread: Spread, of: keyof Figures["spread"]): string => 
+    withUnit(spread.map((value) => words(value, of)).join(" / "), of === "size" ? unit : "");
   const cell = (figures: Figures | undefined, of: keyof Figures["spread"]): HTMLElement => element("td", {}, figures ? text(figures.spread[of], of) : "–");
   const body = element("tbody");
   for (const [name, of] of spreads) body.append(element("tr", {}, element("th", { scope: "row" }, name), cell(source, of), cell(result, of)));

@@ -71,6 +71,9 @@ export function labelOf(path: string[]): string {
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
+/** A format as people write it. */
+export const formatLabel = (name: string): string => (name === "THREE_MF" ? "3mf" : name.toLowerCase().replace(/_/g, " "));
+
 /** Formats to download: those that have a name. */
 export function formatsOf(contract: Contract): string[] {
   return (contract.components.schemas["MeshFormat"]?.enum ?? []).filter((name) => !name.endsWith("UNSPECIFIED"));

@@ -3,6 +3,7 @@ import { RepresentationSchema, type Representation, type Session } from "../gen/
 import type { ColourBy } from "../shared/colours";
 import { Problem, problemText } from "../shared/problem";
 import type { Element, Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
+import { symbolOf } from "../shared/units";
 import { readPlace, writePlace, type Place } from "./address";
 import { deleteSession, getQuality, getSession, meshPath } from "./api";
 import { Colouring } from "./colouring";
@@ -151,7 +152,7 @@ export class Workbench {
   private recolour(): void {
     const { by, range } = this.colouring;
     for (const worker of [this.source, this.result]) worker.tell({ kind: "colour", by, range });
-    if (this.session) find("legend").replaceChildren(legend(by, range));
+    if (this.session) find("legend").replaceChildren(legend(by, range, this.unit));
   }
 
   private order(order: Order): void {
@@ -266,7 +267,7 @@ export class Workbench {
   }
 
   private showQuality(): void {
-    const columns = { ...this.figures, deviation: this.made && this.at === this.faces ? this.made.quality?.deviationMax : undefined };
+    const columns = { ...this.figures, deviation: this.made && this.at === this.faces ? this.made.quality?.deviationMax : undefined, unit: this.unit };
     find("table").replaceChildren(qualityTable(columns), spreadTable(columns));
     find("histogram").replaceChildren(stretchHistogram(columns));
   }
@@ -277,11 +278,16 @@ export class Workbench {
     refill(find("notes"), ...(notes.length > 0 ? notes : ["Nothing to report."]));
   }
 
+  /** Of lengths. */
+  private get unit(): string {
+    return symbolOf(this.session?.source?.unit);
+  }
+
   private showSummary(): void {
     const { source } = this.session!;
     const kind = source!.closed ? `closed, genus ${source!.genus}` : `${count(source!.boundaryEdges)} boundary edges`;
     const pieces = source!.components === 1 ? "1 piece" : `${count(source!.components)} pieces`;
     find("part").textContent = this.name || `session ${this.session!.id}`;
-    find("summary").textContent = `${count(source!.faces)} faces, ${count(source!.vertices)} vertices; ${pieces}, ${kind}.`;
+    find("summary").textContent = `${count(source!.faces)} faces, ${count(source!.vertices)} vertices; ${pieces}, ${kind}${this.unit ? `; lengths in ${this.unit}` : ""}.`;
   }
 }

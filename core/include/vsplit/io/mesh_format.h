@@ -26,13 +26,14 @@ enum class MeshFormat {
     kVtk,        ///< legacy VTK, bytes
     kVtkAscii,   ///< legacy VTK as text
     kVtu,        ///< VTK's XML for unstructured grids
+    k3mf,        ///< 3D Manufacturing Format: XML in a zip archive; the one that says its unit
 };
 
 /// All of them.
 [[nodiscard]] std::span<const MeshFormat> mesh_formats();
 
 /// "stl", "stl-ascii", "obj", "ply", "ply-ascii", "off", "msh", "msh-ascii", "msh2", "msh2-ascii", "inp", "bdf", "vtk",
-/// "vtk-ascii", "vtu".
+/// "vtk-ascii", "vtu", "3mf".
 [[nodiscard]] std::string_view format_name(MeshFormat format);
 
 /// The inverse of format_name. \return INVALID_OPTION listing the names.

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "vsplit/base/expected.h"
 #include "vsplit/mesh/finding.h"
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/mesh/triangle_mesh.h"
 #include "vsplit/mesh/weld.h"
 #include "vsplit/quality/mesh_quality.h"
@@ -25,6 +27,7 @@ struct MeshReport {
     std::vector<std::uint32_t> boundary_touches;  ///< the first kExamples of those at which the boundary touches itself
     std::uint32_t degenerate_faces = 0;           ///< stretch under 1e-9
     std::uint32_t duplicate_faces = 0;
+    std::optional<LengthUnit> unit{};  ///< of all lengths here; a mesh does not know it: whoever read it fills it in
     BoundingBox box;
     Quality quality;
     std::vector<Finding> findings;

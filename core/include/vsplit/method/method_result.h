@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/method/method_options.h"
 #include "vsplit/mrr/multires_mesh.h"
 #include "vsplit/quality/mesh_quality.h"
@@ -35,6 +37,7 @@ struct MethodFigures {
     std::vector<Violation> violations;   ///< at `faces`; empty when all bounds hold
     std::vector<Slivers> slivers;        ///< at `faces`: why there are faces under 0.2, by cause; empty where there are none
     std::chrono::duration<double> elapsed{};
+    std::optional<LengthUnit> unit{};  ///< of all lengths here; the methods leave it to who knows the mesh's
 
     [[nodiscard]] bool bounds_satisfied() const { return violations.empty(); }
 };

@@ -10,6 +10,7 @@
 
 #include "vsplit/base/expected.h"
 #include "vsplit/io/mesh_format.h"
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/mesh/triangle_mesh.h"
 #include "vsplit/mrr/multires_mesh.h"
 #include "vsplit/mrr/record_block.h"
@@ -49,6 +50,7 @@ struct UploadOptions {
     std::optional<MeshFormat> format;  ///< told from the bytes when empty
     double weld = 0;                   ///< length, model units, >= 0; 0 merges exactly equal vertices
     v1::Repair repair = v1::REPAIR_UNSPECIFIED;
+    std::optional<LengthUnit> unit{};  ///< of the file's lengths, where it does not say it
     std::function<void(std::uint64_t sent, std::uint64_t total)> on_progress;  ///< bytes; called on the caller's thread
 };
 
