@@ -340,7 +340,17 @@ const steps = {
     assert.equal(await page.locator("#problems p").count(), 0);
   },
 
-  async "a double click on a sample uploads once, and what was there before is deleted"({ page, address }) {
+  async "what an address has opened is not deleted when another mesh is uploaded"({ page, address }) {
+    const { id } = await (await fetch(`${address}/v1/sessions`, { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body: readFileSync(openMesh()) })).json();
+    await page.evaluate((text) => (location.hash = text), `session=${id}`);
+    await page.waitForFunction(() => document.getElementById("canvas").dataset.source === "1102");
+    await takeSample(page, "bracket.stl");
+    await page.waitForTimeout(500);
+    assert.equal((await fetch(`${address}/v1/sessions/${id}`)).status, 200);
+    await fetch(`${address}/v1/sessions/${id}`, { method: "DELETE" });
+  },
+
+  async "a double click on a sample uploads once, and what was uploaded here before is deleted"({ page, address }) {
     const before = await shownOn(page);
     const posted = [];
     const note = (request) => request.method() === "POST" && posted.push(request.url());

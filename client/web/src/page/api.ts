@@ -40,6 +40,13 @@ export function upload(file: Blob, options: UploadOptions, sent: (share: number)
   });
 }
 
+/** Puts off when the session expires. */
+export async function keepAlive(id: string): Promise<Session> {
+  const response = await fetch(`/v1/sessions/${encodeURIComponent(id)}:keepAlive`, { method: "POST", headers: fields() });
+  if (!response.ok) throw await problemOf(response);
+  return read(SessionSchema, (await response.json()) as JsonValue);
+}
+
 export const getSession = (id: string): Promise<Session> => get(SessionSchema, `/v1/sessions/${encodeURIComponent(id)}`);
 
 export async function deleteSession(id: string): Promise<void> {

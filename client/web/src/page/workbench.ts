@@ -8,6 +8,7 @@ import { readPlace, writePlace, type Place } from "./address";
 import { deleteSession, getQuality, getSession, meshPath } from "./api";
 import { Colouring } from "./colouring";
 import { count, find, refill } from "./dom";
+import { KeepAlive } from "./keep_alive";
 import { legend } from "./legend";
 import { findingList, resultNotes, worstList } from "./lists";
 import { MeshWorker } from "./mesh_worker";
@@ -30,6 +31,9 @@ function stepText(patch: Patch): string {
 /** The session that is open: its two meshes, what is known of them, and what is shown. */
 export class Workbench {
   private session: Session | undefined;
+  /** Ids of sessions whose mesh was uploaded in this tab since it was loaded. */
+  private readonly uploaded = new Set<string>();
+  private readonly alive = new KeepAlive((problem) => this.changed(this.ready, problemText(problem)));
   private name = "";
   private sample: string | undefined;
   private made: Representation | undefined;
@@ -81,12 +85,14 @@ export class Workbench {
     this.order({ kind: "open", session: session.id, representation: made.id, faces: place.faces ?? made.faces, centre: this.centre });
   }
 
-  /** A session whose mesh was just uploaded, instead of the one before, which goes. */
+  /** A session whose mesh was just uploaded, instead of the one before, which goes if it was uploaded here: whatever an address
+   * has opened is somebody else's too. */
   replace(session: Session, name: string, sample?: string): void {
     const before = this.session?.id;
     this.open(session, name, sample);
     // One that cannot be deleted ends when its time is over.
-    if (before) deleteSession(before).catch(() => undefined);
+    if (before && this.uploaded.delete(before)) deleteSession(before).catch(() => undefined);
+    this.uploaded.add(session.id);
   }
 
   private open(session: Session, name: string, sample: string | undefined): void {
@@ -96,6 +102,7 @@ export class Workbench {
     this.source = this.worker("source");
     this.result = this.worker("result");
     this.session = session;
+    this.alive.watch(session);
     this.colouring.clear();
     this.name = name;
     this.sample = sample;
