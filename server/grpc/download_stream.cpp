@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <span>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -42,10 +43,10 @@ Expected<std::optional<MidsideNodes>> nodes_of(const TriangleMesh& mesh, const W
     return std::optional(*std::move(nodes));
 }
 
-Expected<DownloadSource::File> write_file(const Wanted& wanted, const std::filesystem::path& directory) {
+Expected<MeshFile> write_file(const Wanted& wanted, const std::filesystem::path& directory) {
     const Expected<service::OpenedMesh> opened = wanted.mesh.open();
     if (!opened) return opened.error();
-    DownloadSource::File file;
+    MeshFile file;
     file.mesh = opened->ref;
     std::shared_ptr<const TriangleMesh> mesh = opened->mesh;
     Expected<std::optional<MidsideNodes>> nodes = nodes_of(*mesh, wanted);
@@ -113,12 +114,19 @@ std::string file_name(const service::MeshRef& mesh, MeshFormat format) {
            std::string(name.substr(0, name.find('-')));
 }
 
+/// Names one file: whoever asks for the same gets the same bytes. A mesh that was uploaded is told from the one before it by its
+/// address; who waits for a file of it keeps it there.
+std::string key_of(const service::SessionSnapshot& session, const v1::DownloadMeshRequest& request, MeshFormat format,
+                   std::optional<LengthUnit> unit) {
+    std::ostringstream key;
+    key << session.id << ' ' << session.source.get() << ' ' << request.representation() << ' ' << request.faces() << ' '
+        << static_cast<int>(format) << ' ' << request.order() << ' ' << (unit ? static_cast<int>(*unit) : -1);
+    return key.str();
+}
+
 }  // namespace
 
-DownloadSource::DownloadSource(MeshFormat format, std::shared_ptr<Prepared> prepared)
-    : format_(format), prepared_(std::move(prepared)) {}
-
-Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service,
+Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service, FileShelf& shelf,
                                                                              const service::Caller& caller,
                                                                              const v1::DownloadMeshRequest& request,
                                                                              const Wake& wake) {
@@ -133,45 +141,44 @@ Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(ser
     Expected<service::PickedMesh> mesh = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
     if (!mesh) return mesh.error();
     if (Status possible = check_unit(format, mesh->unit(), *unit); !possible) return possible.error();
-    auto prepared = std::make_shared<Prepared>();
     const Wanted wanted{*mesh, format, request.order() == 2 ? session->source : nullptr, *unit};
-    const bool taken = service.errand([prepared, wake, wanted, &options = service.options()] {
-        prepared->put(service::guarded([&] { return write_file(wanted, options.temp_directory); }));
-        wake();
+    auto [file, first] = shelf.join(key_of(*session, request, format, *unit), session->source);
+    file->call_when_there(wake);
+    std::unique_ptr<MessageSource> source(new DownloadSource(format, file));
+    if (!first) return source;
+    const bool taken = service.errand([waited_for = std::weak_ptr(file), wanted, &options = service.options()] {
+        const std::shared_ptr<SharedFile> shared = waited_for.lock();
+        if (shared) shared->put(service::guarded([&] { return write_file(wanted, options.temp_directory); }));
     });
-    if (!taken) return Error{Cause::kUnavailable, "the server is shutting down", ""};
-    return std::unique_ptr<MessageSource>(new DownloadSource(format, std::move(prepared)));
+    if (!taken) file->put(Error{Cause::kUnavailable, "the server is shutting down", ""});
+    return source;
 }
 
 DownloadSource::Step DownloadSource::next(v1::MeshChunk& chunk, grpc::Status& end) {
-    if (!file_) {
-        std::optional<Expected<File>> prepared = prepared_->take();
-        if (!prepared) return Step::kWait;
-        if (!*prepared) {
-            end = wire::to_status(prepared->error());
-            return Step::kEnd;
-        }
-        file_ = std::move(**prepared);
-    } else if (sent_ == file_->bytes().size()) {
+    const Expected<MeshFile>* const file = shared_->get();
+    if (file == nullptr) return Step::kWait;
+    if (!*file) {
+        end = wire::to_status(file->error());
         return Step::kEnd;
     }
-    fill(chunk);
+    if (std::exchange(begun_, true) && sent_ == (*file)->bytes().size()) return Step::kEnd;
+    fill(**file, chunk);
     return Step::kMessage;
 }
 
-void DownloadSource::fill(v1::MeshChunk& chunk) {
+void DownloadSource::fill(const MeshFile& file, v1::MeshChunk& chunk) {
     chunk.Clear();
-    const std::span<const std::byte> rest = file_->bytes().subspan(sent_);
+    const std::span<const std::byte> rest = file.bytes().subspan(sent_);
     const std::span<const std::byte> part = rest.first(std::min(rest.size(), kChunkBytes));
     chunk.set_offset(sent_);
     chunk.set_data(part.data(), part.size());
     if (sent_ == 0) {
         chunk.set_size(rest.size());
-        chunk.set_file_name(file_name(file_->mesh, format_));
+        chunk.set_file_name(file_name(file.mesh, format_));
         chunk.set_content_type(content_type(format_));
-        chunk.set_faces(file_->mesh.faces);
-        chunk.set_nodes_on_chord(file_->nodes_on_chord);
-        chunk.set_digest(file_->digest);
+        chunk.set_faces(file.mesh.faces);
+        chunk.set_nodes_on_chord(file.nodes_on_chord);
+        chunk.set_digest(file.digest);
     }
     sent_ += part.size();
 }

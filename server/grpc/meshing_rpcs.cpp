@@ -183,7 +183,10 @@ MeshingRpcs::EventReactor* MeshingRpcs::SetResolution(Context* context, const v1
 }
 
 grpc::ServerWriteReactor<v1::MeshChunk>* MeshingRpcs::DownloadMesh(Context* context, const v1::DownloadMeshRequest* request) {
-    return stream<DownloadSource>(*context, "DownloadMesh", *request);
+    return PullStream<v1::MeshChunk>::open(RpcWatch(ledger_, *context, "DownloadMesh", request->session()),
+                                           [&](const service::Caller& caller, const Wake& wake) {
+                                               return DownloadSource::make(service_, shelf_, caller, *request, wake);
+                                           });
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::GetQuality(Context* context, const v1::GetQualityRequest* request, v1::Quality* response) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string_view>
 
+#include "grpc/file_shelf.h"
 #include "grpc/rpc_ledger.h"
 #include "service/meshing_service.h"
 #include "vsplit/base/expected.h"
@@ -51,6 +52,7 @@ private:
 
     service::MeshingService& service_;
     RpcLedger& ledger_;
+    FileShelf shelf_;
 };
 
 }  // namespace vsplit::rpc
