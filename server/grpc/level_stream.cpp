@@ -148,7 +148,7 @@ Expected<LevelSource::Step> LevelSource::next_or_error(v1::ProgressiveEvent& eve
         if (!*plan) return plan->error();
         parts_.emplace(service_, **std::move(plan), choice_, wake_);
     }
-    const Expected<Step> step = parts_->next(event);
+    Expected<Step> step = parts_->next(event);
     if (!step || *step != Step::kEnd) return step;
     std::optional<Expected<v1::Representation>> last = news_->last.take();
     if (!last) return Step::kWait;

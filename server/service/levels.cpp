@@ -19,8 +19,9 @@ std::shared_ptr<const Value> cached(LruCache<Paid<Value>>& cache, std::size_t ke
     if (!paid) {
         auto made = std::make_shared<Paid<Value>>(Paid<Value>{make(), {}});
         Expected<MemoryBudget::Share> share = budget.reserve(bytes(made->value), "a cached level");
-        if (share) made->share = *std::move(share);
-        paid = share ? cache.insert(key, std::move(made)) : std::move(made);
+        const bool room = share.has_value();
+        if (room) made->share = *std::move(share);
+        paid = room ? cache.insert(key, std::move(made)) : std::move(made);
     }
     return {paid, &paid->value};
 }

@@ -120,7 +120,7 @@ Status Session::begin_change(const SourceMesh* before) {
 
 Status Session::change_source(const SourceMesh* before, std::shared_ptr<const SourceMesh>& source) {
     if (Status begun = begin_change(before); !begun) return begun;
-    const Status kept = host_.archive.set_source(number_, *source);
+    Status kept = host_.archive.set_source(number_, *source);
     Pointers dropped;  // freed after the lock is released
     const std::lock_guard lock(mutex_);
     changing_ = false;

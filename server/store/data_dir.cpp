@@ -61,7 +61,7 @@ Expected<fs::path> put_aside(const fs::path& directory) {
 
 }  // namespace
 
-Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, Report report) {
+Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, const Report& report) {
     const bool writable = !fs::exists(directory / kIndex) || access(directory.c_str(), W_OK) == 0;
     if (!writable)
         report(service::disk_error("the data directory " + directory.string() + " is served, and nothing new is kept in it")
