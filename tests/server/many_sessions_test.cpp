@@ -189,10 +189,11 @@ TEST(ManySessionsTest, ManyClientsShareOneSession) {
         clients.emplace_back([&server, &id, &made, client] {
             const std::unique_ptr<Stub> stub = server.connect();
             v1::ImproveRequest wanted = small_improve(id);
-            wanted.mutable_options()->set_feature_weight(1 + client / 2);  // two clients ask for the same
+            const unsigned pair = client / 2;  // two clients ask for the same
+            wanted.mutable_options()->set_feature_weight(1 + pair);
             const Received received = improve(*stub, wanted);
             ASSERT_TRUE(received.status.ok()) << received.status.error_message();
-            EXPECT_EQ(received.representation->improve_options().feature_weight(), 1 + client / 2);
+            EXPECT_EQ(received.representation->improve_options().feature_weight(), 1 + pair);
             ++made;
             v1::SetResolutionRequest request;
             request.set_session(id);
