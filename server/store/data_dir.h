@@ -22,7 +22,8 @@ public:
     /// reported: whatever would change it is refused.
     /// \param quota bytes of disk that meshes and representations may take; 0: no limit.
     /// \return UNAVAILABLE, LIMIT_EXCEEDED, UNSUPPORTED (made by a later version), INVALID_OPTION (no directory).
-    [[nodiscard]] static Expected<DataDir> open(const std::filesystem::path& directory, std::uint64_t quota, const Report& report);
+    [[nodiscard]] static Expected<DataDir> open(const std::filesystem::path& directory, std::uint64_t quota,
+                                                const Report& report);
 
     ~DataDir();
     DataDir(DataDir&& other) noexcept;

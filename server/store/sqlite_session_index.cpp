@@ -40,6 +40,15 @@ END;
 CREATE TRIGGER source_goes AFTER UPDATE OF blob ON sessions WHEN OLD.blob <> '' BEGIN
     INSERT OR IGNORE INTO loose VALUES (OLD.blob);
 END;
+CREATE TRIGGER session_comes AFTER INSERT ON sessions BEGIN
+    DELETE FROM loose WHERE blob = NEW.blob;
+END;
+CREATE TRIGGER source_comes AFTER UPDATE OF blob ON sessions WHEN OLD.blob <> NEW.blob BEGIN
+    DELETE FROM loose WHERE blob = NEW.blob;
+END;
+CREATE TRIGGER representation_comes AFTER INSERT ON representations BEGIN
+    DELETE FROM loose WHERE blob = NEW.blob;
+END;
 CREATE TRIGGER representation_goes AFTER DELETE ON representations BEGIN
     INSERT OR IGNORE INTO loose VALUES (OLD.blob);
 END;
