@@ -32,33 +32,41 @@ void set_life(grpc::ServerBuilder& builder, const ConnectionLife& life) {
 }  // namespace
 
 GrpcServer::GrpcServer(service::MeshingService& service, const GrpcExtras& extras)
-    : ledger_(extras.observer, extras.gate, extras.limits.rpcs), rpcs_(service, ledger_) {}
+    : ledger_(extras.observer, extras.gate, extras.limits.rpcs),
+      rpcs_(service, ledger_),
+      door_(extras.limits.connections, extras.on_connection_refused) {}
 
 GrpcServer::~GrpcServer() { shutdown(std::chrono::milliseconds(0)); }
 
-Expected<std::unique_ptr<GrpcServer>> GrpcServer::start(const std::string& address, service::MeshingService& service,
-                                                        const GrpcExtras& extras) {
+Expected<std::unique_ptr<GrpcServer>> GrpcServer::start(const std::string& host, const std::string& port,
+                                                        service::MeshingService& service, const GrpcExtras& extras) {
     std::unique_ptr<GrpcServer> server(new GrpcServer(service, extras));
-    if (Status listening = server->listen(address, extras); !listening) return listening.error();
+    if (Status listening = server->door_.listen(host, port); !listening) return listening.error();
+    if (Status serving = server->serve(extras); !serving) return serving.error();
     return server;
 }
 
-Status GrpcServer::listen(const std::string& address, const GrpcExtras& extras) {
+Status GrpcServer::serve(const GrpcExtras& extras) {
     grpc::EnableDefaultHealthCheckService(true);
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
     grpc::ServerBuilder builder;
-    // Otherwise two servers could share a port, and each get some of the other's rpcs.
-    builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
     builder.SetMaxReceiveMessageSize(extras.limits.message_bytes);
     builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, extras.limits.streams);
     set_life(builder, extras.life);
-    builder.AddListeningPort(address, credentials_of(extras.tls), &port_);
+    using Connections = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
+    acceptor_ = builder.experimental().AddExternalConnectionAcceptor(Connections::FROM_FD, credentials_of(extras.tls));
     builder.RegisterService(&rpcs_);
     for (grpc::Service* service : extras.services) builder.RegisterService(service);
     if (extras.meter != nullptr) builder.experimental().SetInterceptorCreators(interceptors_of(*extras.meter));
     server_ = builder.BuildAndStart();
-    if (server_ == nullptr || port_ == 0) return Error{Cause::kUnavailable, "cannot listen on " + address, "listen"};
+    if (server_ == nullptr) return Error{Cause::kUnavailable, "gRPC could not start", "listen"};
     server_->GetHealthCheckService()->SetServingStatus(v1::Meshing::service_full_name(), true);
+    door_.open([this](int descriptor, int listener) {
+        grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
+        connection.listener_fd = listener;
+        connection.fd = descriptor;
+        acceptor_->HandleNewConnection(&connection);
+    });
     return Done{};
 }
 
@@ -79,6 +87,7 @@ bool GrpcServer::drain(std::chrono::milliseconds grace) {
 void GrpcServer::shutdown(std::chrono::milliseconds grace) {
     if (server_ == nullptr) return;
     drain(grace);
+    door_.close();
     server_->Shutdown(std::chrono::system_clock::now() + kFlushTime);
     server_->Wait();
     server_.reset();

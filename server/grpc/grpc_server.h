@@ -3,10 +3,12 @@
 #include <grpcpp/grpcpp.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "grpc/connection_door.h"
 #include "grpc/meshing_rpcs.h"
 #include "grpc/rpc_ledger.h"
 #include "grpc/rpc_meter.h"
@@ -19,6 +21,7 @@ namespace vsplit::rpc {
 
 /// What clients may use up.
 struct GrpcLimits {
+    std::size_t connections = 0;   ///< at a time; 0: no limit
     std::size_t rpcs = 0;          ///< at a time; 0: no limit
     int message_bytes = 16 << 20;  ///< of one message; larger meshes come by UploadMesh, in parts
     int streams = 1000;            ///< rpcs of one connection at a time; more wait at the client
@@ -38,21 +41,22 @@ struct GrpcExtras {
     guard::Gatekeeper* gate = nullptr;       ///< who may make rpcs of the contract; null: everybody; must outlive the server
     GrpcLimits limits{};
     ConnectionLife life{};
-    guard::TlsFiles tls{};  ///< none: plain
+    guard::TlsFiles tls{};                          ///< none: plain
+    std::function<void()> on_connection_refused{};  ///< of a connection over the limit
 };
 
 /// The gRPC front door: vsplit.v1.Meshing, health (of the server and of that service) and reflection.
 class GrpcServer {
 public:
-    /// Serves at `address` ("host:port", port 0 for a free one) from now on. `service` must outlive the server.
-    /// \return UNAVAILABLE when it cannot listen there.
-    [[nodiscard]] static Expected<std::unique_ptr<GrpcServer>> start(const std::string& address, service::MeshingService& service,
-                                                                     const GrpcExtras& extras);
+    /// Serves at `host`:`port` (0 for a free one) from now on. `service` must outlive the server. \return UNAVAILABLE when it
+    /// cannot listen there, with the reason.
+    [[nodiscard]] static Expected<std::unique_ptr<GrpcServer>> start(const std::string& host, const std::string& port,
+                                                                     service::MeshingService& service, const GrpcExtras& extras);
     ~GrpcServer();
     GrpcServer(const GrpcServer&) = delete;
     GrpcServer& operator=(const GrpcServer&) = delete;
 
-    [[nodiscard]] int port() const { return port_; }
+    [[nodiscard]] int port() const { return door_.port(); }
 
     /// A way to the same rpcs without a socket, for another door: what holds for one holds for the other.
     [[nodiscard]] std::shared_ptr<grpc::Channel> channel();
@@ -69,12 +73,13 @@ public:
 private:
     GrpcServer(service::MeshingService& service, const GrpcExtras& extras);
 
-    [[nodiscard]] Status listen(const std::string& address, const GrpcExtras& extras);
+    [[nodiscard]] Status serve(const GrpcExtras& extras);
 
     RpcLedger ledger_;
     MeshingRpcs rpcs_;
     std::unique_ptr<grpc::Server> server_;
-    int port_ = 0;
+    std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
+    ConnectionDoor door_;
 };
 
 }  // namespace vsplit::rpc

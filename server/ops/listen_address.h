@@ -20,7 +20,4 @@ struct ListenAddress {
 /// "[IPv6]:PORT".
 [[nodiscard]] Expected<ListenAddress> parse_listen_address(std::string_view option, std::string_view text);
 
-/// Why the operating system would not let a server listen there, for a person; gRPC keeps it to itself.
-[[nodiscard]] std::string why_not_listening(const ListenAddress& address);
-
 }  // namespace vsplit::ops

@@ -1,5 +1,6 @@
 #include "ops/logging.h"
 
+#include <google/protobuf/stubs/logging.h>
 #include <grpc/support/log.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -31,6 +32,11 @@ LogOptions& options() {
 // by the program in words of its own.
 void log_grpc(gpr_log_func_args* args) {
     if (spdlog::should_log(spdlog::level::debug)) spdlog::debug("grpc: {}", args->message);
+}
+
+// As above: a client that sends letters that are none gets its answer.
+void log_protobuf(google::protobuf::LogLevel /*level*/, const char* /*file*/, int /*line*/, const std::string& message) {
+    if (spdlog::should_log(spdlog::level::debug)) spdlog::debug("protobuf: {}", message);
 }
 
 // Writes the record as a member list after what every line has. Bytes that are no UTF-8 become U+FFFD.
@@ -100,6 +106,7 @@ void start_logging(const LogOptions& wanted) {
     logger->flush_on(spdlog::level::debug);
     spdlog::set_default_logger(std::move(logger));
     gpr_set_log_function(log_grpc);
+    google::protobuf::SetLogHandler(log_protobuf);
 }
 
 void log_rpc(const rpc::RpcRecord& record) {

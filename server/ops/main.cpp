@@ -1,5 +1,6 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <csignal>
@@ -53,6 +54,14 @@ void return_large_memory() {
 #endif
 }
 
+// Connections, of which --max-connections may be many, and uploads have one each or two.
+void take_all_descriptors() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+    limit.rlim_cur = limit.rlim_max;
+    static_cast<void>(setrlimit(RLIMIT_NOFILE, &limit));
+}
+
 // Threads inherit what is blocked, so this comes before the first of them.
 void block_stop_signals() {
     const sigset_t signals = stop_signals();
@@ -99,8 +108,10 @@ rpc::GrpcExtras extras_of(const ServerOptions& options, const Guard& guard, Metr
     rpc::GrpcExtras extras;
     extras.observer = log_rpc;
     extras.meter = &metrics;
+    extras.on_connection_refused = [&metrics] { metrics.connection_refused(); };
     extras.gate = guard.gate.get();
     extras.tls = options.tls;
+    extras.limits.connections = options.rest.limits.connections;
     extras.limits.rpcs = options.max_rpcs;
     extras.limits.message_bytes = static_cast<int>(options.max_message_bytes);
     extras.limits.streams = static_cast<int>(options.max_streams);
@@ -167,8 +178,8 @@ int serve(const ServerOptions& options, const ListenAddress& address, const std:
                                     *data ? (*data)->take_archive() : std::make_unique<service::SessionArchive>());
     if (const Status restored = service.restore(); !restored) return fail(restored.error().message);
     Expected<std::unique_ptr<rpc::GrpcServer>> server =
-        rpc::GrpcServer::start(address.text(address.port), service, extras_of(options, *guard, metrics));
-    if (!server) return fail(server.error().message + ": " + why_not_listening(address));
+        rpc::GrpcServer::start(address.host, address.port, service, extras_of(options, *guard, metrics));
+    if (!server) return fail(server.error().message);
     const Expected<std::unique_ptr<rest::RestServer>> rest =
         start_rest(options, http, backend_of(**server, service, metrics, *guard->gate), metrics, guard->tls);
     if (!rest) return fail(rest.error().message);
@@ -225,6 +236,7 @@ int run(int argc, const char* const* argv) {
     }
     block_stop_signals();
     return_large_memory();
+    take_all_descriptors();
     start_logging({options.log_level, options.log_format == "json", options.slow_job});
     return serve(options, *address, http);
 }

@@ -46,6 +46,7 @@ Metrics::Metrics()
       requests_(counters(registry_, "vsplit_http_requests_total", "HTTP requests that ended; status 0 had no answer")),
       http_in_(counters(registry_, "vsplit_http_bytes_total", "Bytes of HTTP bodies").Add({{"direction", "in"}})),
       http_out_(counters(registry_, "vsplit_http_bytes_total", "Bytes of HTTP bodies").Add({{"direction", "out"}})),
+      refused_(counters(registry_, "vsplit_connections_refused_total", "gRPC connections over --max-connections").Add({})),
       jobs_(counters(registry_, "vsplit_jobs_total", "Methods that a worker was at, by outcome")),
       job_seconds_(prometheus::BuildHistogram().Name("vsplit_job_seconds").Help("How long methods ran").Register(registry_)),
       job_waited_(
@@ -90,6 +91,8 @@ void Metrics::http_ended(const rest::HttpRecord& record) {
     http_in_.Increment(static_cast<double>(record.bytes_in));
     http_out_.Increment(static_cast<double>(record.bytes_out));
 }
+
+void Metrics::connection_refused() { refused_.Increment(); }
 
 void Metrics::job_ended(const service::JobRecord& record) {
     const std::string method(record.method);

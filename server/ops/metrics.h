@@ -22,10 +22,10 @@ namespace vsplit::ops {
 ///
 /// vsplit_rpc_seconds (histogram by method) and vsplit_rpcs_total (by method and code) count an rpc once, whichever door it came
 /// by; vsplit_message_bytes_total (by direction) its messages. vsplit_http_requests_total (by status) and vsplit_http_bytes_total
-/// (bodies, by direction) are HTTP's own. vsplit_jobs_total (by method and outcome), vsplit_job_seconds, vsplit_job_wait_seconds
-/// and vsplit_job_faces_total (by method) are of methods that a worker was at. vsplit_memory_bytes and
-/// vsplit_evictions_total are of the budget of memory, vsplit_disk_bytes and vsplit_sessions_set_aside of the data directory.
-/// process_* are those that Prometheus' clients have.
+/// (bodies, by direction) are HTTP's own, vsplit_connections_refused_total is of gRPC connections. vsplit_jobs_total (by method
+/// and outcome), vsplit_job_seconds, vsplit_job_wait_seconds and vsplit_job_faces_total (by method) are of methods that a worker
+/// was at. vsplit_memory_bytes and vsplit_evictions_total are of the budget of memory, vsplit_disk_bytes and
+/// vsplit_sessions_set_aside of the data directory. process_* are those that Prometheus' clients have.
 class Metrics final : public rpc::RpcMeter {
 public:
     Metrics();
@@ -35,6 +35,7 @@ public:
     void message_in(std::size_t bytes) override;
     void message_out(std::size_t bytes) override;
     void http_ended(const rest::HttpRecord& record);
+    void connection_refused();
     void job_ended(const service::JobRecord& record);
 
     /// Everything in Prometheus' text format, with the load of this moment.
@@ -51,6 +52,7 @@ private:
     prometheus::Family<prometheus::Counter>& requests_;
     prometheus::Counter& http_in_;
     prometheus::Counter& http_out_;
+    prometheus::Counter& refused_;
     prometheus::Family<prometheus::Counter>& jobs_;
     prometheus::Family<prometheus::Histogram>& job_seconds_;
     prometheus::Family<prometheus::Histogram>& job_waited_;

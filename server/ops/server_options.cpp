@@ -131,7 +131,7 @@ private:
             ->check(CLI::Range(1U, std::uint32_t{1} << 30));
         add("--max-message-bytes", options_.max_message_bytes, "Bytes of one gRPC message")
             ->check(CLI::Range(std::uint32_t{1} << 16, kMostMessageBytes));
-        add("--max-connections", options_.rest.limits.connections, "HTTP connections at a time");
+        add("--max-connections", options_.rest.limits.connections, "Connections at a time, by gRPC and by HTTP each");
         app_.add_option("--max-request-rate", options_.max_request_rate,
                         "Requests a second of one client, a token or else an address, and twice as many at once; 0: no limit")
             ->group(kGroup)

@@ -7,20 +7,12 @@
 #include <variant>
 
 #include "service/guarded.h"
+#include "service/job_time.h"
 #include "service/memory_use.h"
 #include "vsplit/method/control.h"
 #include "vsplit/method/improve.h"
 
 namespace vsplit::service {
-namespace {
-
-Error too_long(std::uint32_t seconds) {
-    return {Cause::kLimitExceeded,
-            "the method ran for " + std::to_string(seconds) + " s, the server's limit max_job_seconds; ask for less", ""};
-}
-
-}  // namespace
-
 MethodJob::MethodJob(std::shared_ptr<Session> session, PickedMesh source, MethodRequest request, const MethodHost& host,
                      std::shared_ptr<JobNote> note, JobEvents events, const Caller& caller)
     : session_(std::move(session)),
@@ -34,9 +26,9 @@ MethodJob::MethodJob(std::shared_ptr<Session> session, PickedMesh source, Method
 
 Job::Report MethodJob::run() {
     const auto began = std::chrono::steady_clock::now();
-    until_ = began + std::chrono::seconds(host_.options.limits.job_seconds);
+    context_.cancel_at(began + std::chrono::seconds(host_.options.limits.job_seconds));
     JobOutcome outcome = guarded([this] { return compute(); });
-    if (const std::optional<Error> why = stopped(); why && !outcome) outcome = *why;
+    if (!outcome && outcome.error().cause == Cause::kCancelled) outcome = why_cancelled();
     room_.give_back();
     end_note(outcome);
     if (host_.options.job_observer) record(outcome, began);
@@ -152,8 +144,12 @@ std::optional<Error> MethodJob::stopped() const {
     return why_stopped_;
 }
 
+Error MethodJob::why_cancelled() const {
+    if (const std::optional<Error> why = stopped()) return *why;
+    return context_.late() ? took_too_long("the method", host_.options.limits) : ExecutionContext::cancelled_error();
+}
+
 void MethodJob::tell(const Progress& progress) {
-    if (std::chrono::steady_clock::now() > until_) stop(too_long(host_.options.limits.job_seconds));
     if (gate_.open(progress.stage, ProgressGate::Clock::now())) events_.on_progress(progress);
 }
 

@@ -61,6 +61,7 @@ private:
     [[nodiscard]] MethodLimits limits();
     [[nodiscard]] Error explained(Error error) const;
     [[nodiscard]] std::optional<Error> stopped() const;
+    [[nodiscard]] Error why_cancelled() const;
     void tell(const Progress& progress);
     void record(const JobOutcome& outcome, std::chrono::steady_clock::time_point began) const;
 
@@ -72,7 +73,6 @@ private:
     const std::shared_ptr<JobNote> note_;
     const std::string request_id_;
     const std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
-    std::chrono::steady_clock::time_point until_;  // of the run
     ProgressGate gate_;
     ExecutionContext context_;
     MemoryBudget::Share room_;    // while it runs

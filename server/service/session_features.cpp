@@ -1,8 +1,11 @@
 #include "service/session_features.h"
 
+#include <string>
 #include <utility>
 
 #include "service/guarded.h"
+#include "service/job_time.h"
+#include "service/memory_use.h"
 
 namespace vsplit::service {
 namespace {
@@ -11,6 +14,26 @@ Expected<std::shared_ptr<const SourceMesh>> source_of(const Session& session) {
     std::shared_ptr<const SourceMesh> source = session.snapshot().source;
     if (!source) return Error{Cause::kNotReady, "session " + session.id() + " has no mesh yet; upload one first", "session"};
     return source;
+}
+
+/// `remove_features` within the limits that methods have.
+Expected<FeaturelessMesh> remove_within_limits(MeshingService& service, const TriangleMesh& mesh, const FeatureRemoval& removal) {
+    const Limits& limits = service.options().limits;
+    constexpr bool kWithRepair = true;  // its new faces are improved by what repairs are
+    const std::string what = "removing features of " + std::to_string(mesh.face_count()) + " faces";
+    const Expected<MemoryBudget::Share> room = service.memory().reserve(memory_to_read(mesh.face_count(), kWithRepair), what);
+    if (!room) return room.error();
+    ExecutionContext context;
+    context.cancel_at(ExecutionContext::Clock::now() + std::chrono::seconds(limits.job_seconds));
+    Expected<FeaturelessMesh> made = remove_features(mesh, removal, context);
+    if (!made && context.late()) return took_too_long(what, limits);
+    if (made && made->mesh.face_count() > limits.faces) {
+        return Error{Cause::kLimitExceeded,
+                     "without these features the mesh has " + std::to_string(made->mesh.face_count()) +
+                         " faces; the server's limit max_faces is " + std::to_string(limits.faces),
+                     "ids"};
+    }
+    return made;
 }
 
 }  // namespace
@@ -39,10 +62,9 @@ Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::strin
     const Expected<std::shared_ptr<const SourceMesh>> before = source_of(**found);
     if (!before) return before.error();
     return guarded([&]() -> Expected<FeaturesRemoved> {
-        const ExecutionContext context;
         const Expected<std::shared_ptr<const TriangleMesh>> whole = (*before)->mesh->get();
         if (!whole) return whole.error();
-        Expected<FeaturelessMesh> made = remove_features(**whole, removal, context);
+        Expected<FeaturelessMesh> made = remove_within_limits(service, **whole, removal);
         if (!made) return made.error();
         if (made->removed.empty()) return FeaturesRemoved{*std::move(made), *before};
         MeshReport report = inspect(made->mesh);

@@ -23,7 +23,8 @@ struct FeaturesRemoved {
 };
 
 /// Puts the upload without some features in its place and drops the representations; where none goes, nothing changes. Heavy: for
-/// `intake`. \return NOT_FOUND, NOT_READY, BUSY, also where the mesh was replaced meanwhile; what `remove_features` returns.
+/// `intake`. \return NOT_FOUND, NOT_READY, BUSY, also where the mesh was replaced meanwhile; LIMIT_EXCEEDED (memory, time,
+/// faces); what `remove_features` returns.
 [[nodiscard]] Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::string_view session,
                                                            const FeatureRemoval& removal, const Caller& caller = {});
 

@@ -1,7 +1,6 @@
 #include "store/file_blob_store.h"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -34,16 +33,14 @@ private:
     int number_;
 };
 
-class MappedBlob final : public Blob {
+class LoadedBlob final : public Blob {
 public:
-    MappedBlob(void* address, std::size_t size) : address_(address), size_(size) {}
-    ~MappedBlob() override {
-        if (size_ != 0) munmap(address_, size_);
-    }
-    [[nodiscard]] Bytes bytes() const override { return {static_cast<const std::byte*>(address_), size_}; }
+    explicit LoadedBlob(std::size_t size) : bytes_(std::make_unique_for_overwrite<std::byte[]>(size)), size_(size) {}
+    [[nodiscard]] Bytes bytes() const override { return {bytes_.get(), size_}; }
+    [[nodiscard]] std::span<std::byte> room() { return {bytes_.get(), size_}; }
 
 private:
-    void* address_;
+    std::unique_ptr<std::byte[]> bytes_;
     std::size_t size_;
 };
 
@@ -82,17 +79,33 @@ bool is_key(const std::string& name) {
     return name.size() == 64 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-Expected<std::shared_ptr<const Blob>> map_file(const fs::path& place) {
+/// False where the file ends before `room` is full; errno tells what else went wrong.
+Expected<bool> read_all(int descriptor, std::span<std::byte> room) {
+    while (!room.empty()) {
+        const ssize_t count = ::read(descriptor, room.data(), room.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return service::disk_error("cannot read a stored mesh");
+        if (count == 0) return false;
+        room = room.subspan(static_cast<std::size_t>(count));
+    }
+    return true;
+}
+
+// Read, not mapped: a file that somebody cuts short while it is mapped ends the process by SIGBUS.
+Expected<std::shared_ptr<const Blob>> read_file(const fs::path& place) {
+    const auto corrupt = [&place](const char* what) {
+        return Error{Cause::kCorrupt, "the data directory: " + place.filename().string() + what, ""};
+    };
     const Descriptor file(place, O_RDONLY);
-    if (!file.open() && errno == ENOENT)
-        return Error{Cause::kCorrupt, "the data directory: " + place.filename().string() + " is missing", ""};
+    if (!file.open() && errno == ENOENT) return corrupt(" is missing");
     struct stat about {};
     if (!file.open() || fstat(file.number(), &about) != 0) return service::disk_error("cannot open a stored mesh");
-    const auto size = static_cast<std::size_t>(about.st_size);
-    if (size == 0) return std::shared_ptr<const Blob>(std::make_shared<MappedBlob>(nullptr, 0));
-    void* const address = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number(), 0);
-    if (address == MAP_FAILED) return service::disk_error("cannot map a stored mesh");
-    return std::shared_ptr<const Blob>(std::make_shared<MappedBlob>(address, size));
+    if (!S_ISREG(about.st_mode)) return corrupt(" is not a file");
+    const auto blob = std::make_shared<LoadedBlob>(static_cast<std::size_t>(about.st_size));
+    const Expected<bool> whole = read_all(file.number(), blob->room());
+    if (!whole) return whole.error();
+    if (!*whole) return corrupt(" was cut short while it was read");
+    return std::shared_ptr<const Blob>(blob);
 }
 
 }  // namespace
@@ -130,7 +143,7 @@ Status FileBlobStore::take_room(std::uint64_t bytes) {
 
 void FileBlobStore::give_back(std::uint64_t bytes) {
     const std::lock_guard lock(mutex_);
-    bytes_ -= bytes;
+    bytes_ -= std::min(bytes, bytes_);  // somebody else may have made a file larger
 }
 
 std::string FileBlobStore::key_of(std::span<const Bytes> parts) const { return guard::hex_digits(guard::digest_of(parts)); }
@@ -139,7 +152,7 @@ Expected<BlobEntry> FileBlobStore::put(std::span<const Bytes> parts) {
     BlobEntry blob{key_of(parts), size_of(parts)};
     if (fs::exists(place_of(blob.key))) {
         if (get(blob.key)) return blob;
-        if (Status removed = remove(blob.key); !removed) return removed.error();  // a damaged one
+        if (Status aside = put_aside(blob.key); !aside) return aside.error();  // a damaged one
     }
     if (Status room = take_room(blob.bytes); !room) return room.error();
     const Expected<bool> written = write(place_of(blob.key), parts);
@@ -178,7 +191,7 @@ Expected<bool> FileBlobStore::write(const fs::path& place, std::span<const Bytes
 }
 
 Expected<std::shared_ptr<const Blob>> FileBlobStore::get(const std::string& key) const {
-    Expected<std::shared_ptr<const Blob>> blob = map_file(place_of(key));
+    Expected<std::shared_ptr<const Blob>> blob = read_file(place_of(key));
     if (!blob) return blob;
     const Bytes bytes = (*blob)->bytes();
     if (key_of({&bytes, 1}) == key) return blob;
@@ -193,7 +206,7 @@ Status FileBlobStore::put_aside(const std::string& key) {
     if (failed || stat(place_of(key).c_str(), &about) != 0 ||
         rename(place_of(key).c_str(), (aside / (key + ".blob")).c_str()) != 0)
         return service::disk_error("cannot put a stored mesh aside");
-    give_back(static_cast<std::uint64_t>(about.st_size));
+    if (S_ISREG(about.st_mode)) give_back(static_cast<std::uint64_t>(about.st_size));
     return Done{};
 }
 

@@ -9,8 +9,8 @@
 
 namespace vsplit::store {
 
-/// Blobs as files, directory/ab/abcdef...: written beside their place, synchronised and linked into it, mapped to be read. Those
-/// put aside are in directory/aside.
+/// Blobs as files, directory/ab/abcdef...: written beside their place, synchronised and linked into it. Those put aside are in
+/// directory/aside.
 class FileBlobStore final : public BlobStore {
 public:
     /// Makes the directory if need be, and removes what was being written when a server ended; one that is not `writable` is left

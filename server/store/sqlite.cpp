@@ -6,11 +6,15 @@ namespace vsplit::store {
 
 namespace {
 
-// A database that nobody writes to, with no log beside it, can be read where not even locks can be written.
-std::string address_of(const std::filesystem::path& file, bool writable) {
+bool has_log(const std::filesystem::path& file) {
     std::filesystem::path log = file;
     log += "-wal";
-    if (writable || std::filesystem::exists(log)) return file.string();
+    return std::filesystem::exists(log);
+}
+
+// A database that nobody writes to can be read where not even locks can be written: DataDir holds one for it.
+std::string address_of(const std::filesystem::path& file, bool writable) {
+    if (writable) return file.string();
     std::string address = "file:";
     for (const char c : file.string()) {
         constexpr std::string_view kSpecial = "%?#";
@@ -20,7 +24,7 @@ std::string address_of(const std::filesystem::path& file, bool writable) {
             address += c == '%' ? "%25" : c == '?' ? "%3f" : "%23";
         }
     }
-    return address + "?immutable=1";
+    return address + (has_log(file) ? "?vfs=unix-none" : "?immutable=1");
 }
 
 }  // namespace
@@ -33,6 +37,9 @@ Expected<Database> Database::open(const std::filesystem::path& file, bool writab
     Database database(handle);
     if (handle == nullptr) return Error{Cause::kLimitExceeded, "no memory to open " + file.string(), ""};
     if (result != SQLITE_OK) return database.error();
+    if (writable) return database;
+    // The index of its log is kept in memory then, not in a file beside it.
+    if (Status alone = database.run("PRAGMA locking_mode = EXCLUSIVE"); !alone) return alone.error();
     return database;
 }
 

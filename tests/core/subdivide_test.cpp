@@ -151,5 +151,31 @@ TEST(SubdivideTest, StopsWhenCancelled) {
     EXPECT_EQ(stopped.error().cause, Cause::kCancelled);
 }
 
+TEST(SubdivideTest, StopsWhenItsTimeIsOver) {
+    ExecutionContext context;
+    context.cancel_at(ExecutionContext::Clock::now() + std::chrono::milliseconds(20));
+    EXPECT_FALSE(context.late());
+    const auto stopped = subdivide_to_size(test::cube(), 1e-4, std::numeric_limits<std::uint32_t>::max(), context);
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().cause, Cause::kCancelled);
+    EXPECT_TRUE(context.late());
+}
+
+TEST(SubdivideTest, AsksWithTheNumberOfFacesBeforeItMakesThem) {
+    std::vector<std::uint32_t> asked;
+    const FaceLimit willing(kLimit, [&](std::uint32_t faces) {
+        asked.push_back(faces);
+        return Status(Done{});
+    });
+    const auto sized = subdivide_to_size(test::cube(), 0.3, willing, ExecutionContext());
+    const auto quartered = subdivide_one_to_four(test::cube(), 2, willing, ExecutionContext());
+    ASSERT_TRUE(sized && quartered);
+    EXPECT_EQ(asked, (std::vector<std::uint32_t>{sized->mesh.face_count(), quartered->mesh.face_count()}));
+
+    const FaceLimit unwilling(kLimit, [](std::uint32_t) { return Status(Error{Cause::kLimitExceeded, "no room", ""}); });
+    EXPECT_EQ(subdivide_to_size(test::cube(), 0.3, unwilling, ExecutionContext()).error().message, "no room");
+    EXPECT_EQ(subdivide_one_to_four(test::cube(), 2, unwilling, ExecutionContext()).error().message, "no room");
+}
+
 }  // namespace
 }  // namespace vsplit

@@ -96,6 +96,29 @@ TEST_F(FileBlobStoreTest, ChangedAndShortenedBytesAreNotServed) {
     std::ofstream(file_of(key), std::ios::in | std::ios::out).write("AS", 2);
     ASSERT_TRUE(put(*store, "as it was")) << "also where its size is right";
     EXPECT_TRUE(store->get(key));
+    EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "blobs" / "aside" / (key + ".blob"))) << "the damaged one is kept";
+}
+
+TEST_F(FileBlobStoreTest, ABlobThatIsReadAlreadyMayBeCutShort) {
+    const auto store = open();
+    const std::string large(1'000'000, 'x');
+    const auto key = put(*store, large).operator*().key;
+    const auto held = store->get(key);
+    ASSERT_TRUE(held) << held.error().message;
+    std::filesystem::resize_file(file_of(key), 0);
+    EXPECT_EQ(text_of((*held)->bytes()), large);
+}
+
+TEST_F(FileBlobStoreTest, ADirectoryInABlobsPlaceIsDamageLikeAnyOther) {
+    const auto store = open();
+    const auto key = put(*store, "a file").operator*().key;
+    std::filesystem::remove(file_of(key));
+    std::filesystem::create_directory(file_of(key));
+    EXPECT_EQ(store->get(key).error().cause, Cause::kCorrupt);
+    EXPECT_TRUE(store->list()->empty());
+    ASSERT_TRUE(put(*store, "a file"));
+    EXPECT_TRUE(store->get(key));
+    EXPECT_EQ(open()->bytes(), 6U);
 }
 
 TEST_F(FileBlobStoreTest, WhatIsPutAsideIsThereAndNotServed) {

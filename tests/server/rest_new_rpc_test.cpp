@@ -34,7 +34,7 @@ public:
 class NewRpcTest : public ::testing::Test {
 protected:
     void SetUp() override {
-        auto grpc = rpc::GrpcServer::start("127.0.0.1:0", meshing_, {{}, nullptr, {&probe_}});
+        auto grpc = rpc::GrpcServer::start("127.0.0.1", "0", meshing_, {{}, nullptr, {&probe_}});
         ASSERT_TRUE(grpc);
         grpc_ = *std::move(grpc);
         rest::Backend backend;

@@ -17,7 +17,7 @@ service::ServiceOptions small_server() {
 
 TestServer::TestServer(const service::ServiceOptions& options, rpc::GrpcExtras extras) : service_(options) {
     extras.observer = [this](const rpc::RpcRecord& record) { note(record); };
-    Expected<std::unique_ptr<rpc::GrpcServer>> server = rpc::GrpcServer::start("127.0.0.1:0", service_, extras);
+    Expected<std::unique_ptr<rpc::GrpcServer>> server = rpc::GrpcServer::start("127.0.0.1", "0", service_, extras);
     if (!server) {
         std::cerr << server.error().message << '\n';
         std::abort();  // no test can say anything without a server

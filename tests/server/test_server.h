@@ -26,6 +26,7 @@ public:
     [[nodiscard]] service::MeshingService& service() { return service_; }
     [[nodiscard]] std::unique_ptr<v1::Meshing::Stub> connect() const;
     [[nodiscard]] rpc::GrpcServer& server() { return *server_; }
+    [[nodiscard]] int port() const { return server_->port(); }
 
     /// Names and causes of the rpcs that ended so far, e.g. "Improve CANCELLED".
     [[nodiscard]] std::vector<std::string> finished() const;

@@ -35,16 +35,15 @@ ControlPolicy policy_of(const ControlOptions& used, double diagonal) {
 
 /// One-to-four, and midpoints in what is still over max_size: no collapse makes a face smaller.
 Expected<SubdividedMesh> subdivide(const TriangleMesh& mesh, const std::optional<SizePlan>& sizes, const ControlOptions& used,
-                                   bool frozen, std::uint32_t face_limit, const ExecutionContext& context) {
+                                   bool frozen, const FaceLimit& limit, const ExecutionContext& context) {
     const auto quartered = [&](const TriangleMesh& m) {
-        return frozen ? subdivide_one_to_four_inside(m, *used.subdivisions, face_limit, context)
-                      : subdivide_one_to_four(m, *used.subdivisions, face_limit, context);
+        return frozen ? subdivide_one_to_four_inside(m, *used.subdivisions, limit, context)
+                      : subdivide_one_to_four(m, *used.subdivisions, limit, context);
     };
-    Expected<SubdividedMesh> fine = sizes ? to_sizes(mesh, *sizes, frozen, face_limit, context) : quartered(mesh);
+    Expected<SubdividedMesh> fine = sizes ? to_sizes(mesh, *sizes, frozen, limit, context) : quartered(mesh);
     if (fine && sizes) fine = refined(*std::move(fine), quartered);
     if (!fine || !used.max_size) return fine;
-    fine =
-        refined(*std::move(fine), [&](const TriangleMesh& m) { return to_size(m, *used.max_size, frozen, face_limit, context); });
+    fine = refined(*std::move(fine), [&](const TriangleMesh& m) { return to_size(m, *used.max_size, frozen, limit, context); });
     if (fine) return fine;
     Error error = fine.error();
     if (error.field == "subdivision_size") error.field = "max_size";
@@ -99,7 +98,7 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
         sizes = *std::move(plan);
     }
     const bool frozen = *used.freeze_boundary && !report.closed;
-    Expected<SubdividedMesh> subdivided = subdivide(coarse, sizes, used, frozen, limits.max_faces, context);
+    Expected<SubdividedMesh> subdivided = subdivide(coarse, sizes, used, frozen, {limits.max_faces, limits.admit}, context);
     if (!subdivided) return subdivided.error();
     MethodRun run;
     run.prepare = {.features = feature_options(used),
@@ -113,7 +112,6 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     run.extended = extended;
     run.max_deviation = used.max_deviation.value_or(0);
     run.limit = options.max_deviation;
-    run.admit = limits.admit;
     const auto faces_of = [&](const MultiresMesh& mrr) { return faces_that_keep_bounds(mrr, used, options.faces.has_value()); };
     Expected<MethodResult> tried =
         run_policy(mesh, std::move(*subdivided), run, policy_of(used, bounding_box(mesh).diagonal()), faces_of, context);

@@ -53,18 +53,20 @@ double edge_of_faces(const TriangleMesh& mesh, std::uint32_t faces) {
 }
 
 /// `size`, or the next larger one that keeps to what an interactive user waits for.
-double affordable_size(const TriangleMesh& mesh, double size, double diagonal, std::uint32_t host_limit) {
+double affordable_size(const TriangleMesh& mesh, double size, double diagonal, std::uint32_t host_limit,
+                       const ExecutionContext& context) {
     const std::uint32_t face_limit = face_budget(mesh, host_limit);
-    while (size < diagonal && predict_subdivision(mesh, size, face_limit) > face_limit) size *= kSizeGrowth;
+    while (size < diagonal && predict_subdivision(mesh, size, face_limit, &context) > face_limit) size *= kSizeGrowth;
     return size;
 }
 
 /// `fineness`: of what it would be else.
 double default_subdivision_size(const TriangleMesh& mesh, const ImproveOptions& options, double diagonal,
-                                std::uint32_t host_limit, double fineness) {
-    if (options.mode == Mode::kStrict) return affordable_size(mesh, kStrictSizes.size_share * diagonal, diagonal, host_limit);
+                                std::uint32_t host_limit, double fineness, const ExecutionContext& context) {
+    if (options.mode == Mode::kStrict)
+        return affordable_size(mesh, kStrictSizes.size_share * diagonal, diagonal, host_limit, context);
     const double size = options.faces ? edge_of_faces(mesh, *options.faces) : kExtendedSizes.size_share * diagonal;
-    return size > 0 ? affordable_size(mesh, fineness * size, diagonal, host_limit) : diagonal;
+    return size > 0 ? affordable_size(mesh, fineness * size, diagonal, host_limit, context) : diagonal;
 }
 
 std::uint32_t face_count(double faces) { return static_cast<std::uint32_t>(std::clamp(faces, 4.0, 4e9)); }
@@ -85,7 +87,8 @@ ImprovePolicy policy_of(const ImproveOptions& used) {
 
 /// Sizes follow what is asked for, or curvature where neither sizes nor a number of faces are.
 Expected<std::optional<SizePlan>> plan_for(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,
-                                           const ImproveOptions& asked, const ImproveOptions& used, const MethodLimits& limits) {
+                                           const ImproveOptions& asked, const ImproveOptions& used, const MethodLimits& limits,
+                                           const ExecutionContext& context) {
     const auto given = [](Expected<SizePlan> plan) -> Expected<std::optional<SizePlan>> {
         if (!plan) return plan.error();
         return std::optional<SizePlan>(*std::move(plan));
@@ -94,15 +97,16 @@ Expected<std::optional<SizePlan>> plan_for(const TriangleMesh& mesh, const std::
     if (used.mode == Mode::kStrict || asked.faces || asked.subdivision_size) return std::optional<SizePlan>();
     // A tolerance far below the default is about the facets of the source; their angles are no curvature.
     const double tolerance = std::max(*used.tolerance, kDefaultToleranceShare * bounding_box(mesh).diagonal());
-    return given(plan_by_curvature(mesh, creases, tolerance, *used.subdivision_size, face_budget(mesh, limits.max_faces)));
+    return given(
+        plan_by_curvature(mesh, creases, tolerance, *used.subdivision_size, face_budget(mesh, limits.max_faces), context));
 }
 
 /// To the sizes that are planned where they are smaller, and to `size`.
 Expected<SubdividedMesh> subdivide(const TriangleMesh& mesh, const std::optional<SizePlan>& sizes, double size, bool frozen,
-                                   std::uint32_t face_limit, const ExecutionContext& context) {
-    const auto to_usual = [&](const TriangleMesh& m) { return to_size(m, size, frozen, face_limit, context); };
+                                   const FaceLimit& limit, const ExecutionContext& context) {
+    const auto to_usual = [&](const TriangleMesh& m) { return to_size(m, size, frozen, limit, context); };
     if (!sizes) return to_usual(mesh);
-    Expected<SubdividedMesh> sized = to_sizes(mesh, *sizes, frozen, face_limit, context);
+    Expected<SubdividedMesh> sized = to_sizes(mesh, *sizes, frozen, limit, context);
     return sized ? refined(*std::move(sized), to_usual) : sized;
 }
 
@@ -121,12 +125,12 @@ void report_floor(MethodResult& result, std::optional<double> floor) {
 }
 
 ImproveOptions options_as_used(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
-                               double fineness) {
+                               double fineness, const ExecutionContext& context) {
     const double diagonal = bounding_box(mesh).diagonal();
     ImproveOptions used = options;
     used.mode = options.mode.value_or(Mode::kExtended);
     if (!used.subdivision_size)
-        used.subdivision_size = default_subdivision_size(mesh, used, diagonal, limits.max_faces, fineness);
+        used.subdivision_size = default_subdivision_size(mesh, used, diagonal, limits.max_faces, fineness, context);
     fill_tolerances(diagonal, used);
     used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
@@ -148,16 +152,18 @@ Expected<MethodResult> improve_once(const TriangleMesh& mesh, const ImproveOptio
     const MeshReport report = inspect(mesh);
     if (Status manifold = require_manifold(report); !manifold) return manifold.error();
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
-    ImproveOptions used = options_as_used(mesh, options, limits, fineness);
+    ImproveOptions used = options_as_used(mesh, options, limits, fineness, context);
 
     const bool extended = used.mode == Mode::kExtended;
     const std::shared_ptr<const CreasedMesh> flipped = extended ? without_slivers(mesh, used, context) : nullptr;
     const TriangleMesh& coarse = flipped ? flipped->mesh : mesh;
-    if (flipped) used = options_as_used(coarse, options, limits, fineness);  // its sizes may be smaller
-    const Expected<std::optional<SizePlan>> sizes = plan_for(coarse, creases_of(mesh, flipped, used), options, used, limits);
+    if (flipped) used = options_as_used(coarse, options, limits, fineness, context);  // its sizes may be smaller
+    const Expected<std::optional<SizePlan>> sizes =
+        plan_for(coarse, creases_of(mesh, flipped, used), options, used, limits, context);
     if (!sizes) return sizes.error();
     const bool frozen = *used.freeze_boundary && !report.closed;
-    Expected<SubdividedMesh> subdivided = subdivide(coarse, *sizes, *used.subdivision_size, frozen, limits.max_faces, context);
+    Expected<SubdividedMesh> subdivided =
+        subdivide(coarse, *sizes, *used.subdivision_size, frozen, {limits.max_faces, limits.admit}, context);
     if (!subdivided) return subdivided.error();
     if (*sizes && !options.faces) used.faces = std::max(face_count(wanted_faces(*subdivided, coarse, **sizes)), *used.faces_min);
     MethodRun run;
@@ -174,7 +180,6 @@ Expected<MethodResult> improve_once(const TriangleMesh& mesh, const ImproveOptio
     run.extended = extended;
     run.max_deviation = used.max_deviation.value_or(0);
     run.limit = options.max_deviation;
-    run.admit = limits.admit;
     const auto faces_of = [&](const MultiresMesh& mrr) {
         return options.faces || extended ? *used.faces : std::max(*used.faces, kFacesOverCoarsest * mrr.faces_min());
     };
@@ -191,19 +196,19 @@ Expected<MethodResult> improve_once(const TriangleMesh& mesh, const ImproveOptio
 }
 
 /// Whether faces of a smaller default size may have the mean stretch that these have not.
-bool may_be_finer(const TriangleMesh& mesh, const MethodResult& result, const ImproveOptions& options,
-                  const MethodLimits& limits) {
+bool may_be_finer(const TriangleMesh& mesh, const MethodResult& result, const ImproveOptions& options, const MethodLimits& limits,
+                  const ExecutionContext& context) {
     const auto& used = std::get<ImproveOptions>(result.options);
     if (used.mode == Mode::kStrict || options.faces || options.subdivision_size) return false;
     if (result.quality.stretch_mean >= kMissedShare * *used.min_mean_stretch) return false;
-    return *options_as_used(mesh, options, limits, kFinerSize).subdivision_size < *used.subdivision_size;
+    return *options_as_used(mesh, options, limits, kFinerSize, context).subdivision_size < *used.subdivision_size;
 }
 
 Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
                                     const ExecutionContext& context) {
     const auto start = std::chrono::steady_clock::now();
     Expected<MethodResult> result = improve_once(mesh, options, limits, 1, context);
-    if (result && may_be_finer(mesh, *result, options, limits)) {
+    if (result && may_be_finer(mesh, *result, options, limits, context)) {
         result = improve_once(mesh, options, limits, kFinerSize, context);
     }
     if (result) result->elapsed = std::chrono::steady_clock::now() - start;
@@ -213,7 +218,7 @@ Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptio
 }  // namespace
 
 ImproveOptions default_options(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits) {
-    return options_as_used(mesh, options, limits, 1);
+    return options_as_used(mesh, options, limits, 1, ExecutionContext());
 }
 
 Expected<MethodResult> improve(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <optional>
 
 #include "method/prepare.h"
@@ -12,9 +10,8 @@ namespace vsplit {
 struct MethodRun {
     PrepareOptions prepare;
     bool extended = false;
-    double max_deviation = 0;                            ///< as used; extended mode only
-    std::optional<double> limit{};                       ///< max_deviation where it was given: to be kept for certain
-    std::function<Status(std::uint32_t faces)> admit{};  ///< MethodLimits::admit
+    double max_deviation = 0;       ///< as used; extended mode only
+    std::optional<double> limit{};  ///< max_deviation where it was given: to be kept for certain
 };
 
 }  // namespace vsplit

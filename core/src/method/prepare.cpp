@@ -136,14 +136,14 @@ bool has_needles(const TriangleMesh& mesh) {
 }
 
 /// The same surface in smaller faces.
-TriangleMesh without_needles(const TriangleMesh& mesh) {
+TriangleMesh without_needles(const TriangleMesh& mesh, const ExecutionContext& context) {
     constexpr double kShare = 0.015;
     constexpr double kGrowth = 1.25;
     constexpr std::uint32_t kMostFaces = 2'000'000;
     const double diagonal = bounding_box(mesh).diagonal();
     double size = kShare * diagonal;
-    while (size < diagonal && predict_subdivision(mesh, size, kMostFaces) > kMostFaces) size *= kGrowth;
-    Expected<SubdividedMesh> fine = subdivide_to_size(mesh, size, std::max(kMostFaces, mesh.face_count()), {});
+    while (size < diagonal && predict_subdivision(mesh, size, kMostFaces, &context) > kMostFaces) size *= kGrowth;
+    Expected<SubdividedMesh> fine = subdivide_to_size(mesh, size, std::max(kMostFaces, mesh.face_count()), context);
     if (!fine) return mesh;
     return std::move(fine->mesh);
 }
@@ -156,10 +156,13 @@ Reference reference_for(const TriangleMesh& source, const std::shared_ptr<const 
     return usable && has_needles(source) ? Reference{replaced->mesh, replaced->moved} : Reference{source, 0};
 }
 
-void guard(SimplifyInput& input, const Reference& reference, double distance) {
+Status guard(SimplifyInput& input, const Reference& reference, double distance, const ExecutionContext& context) {
     const TriangleMesh& mesh = reference.mesh;
-    input.source = std::make_shared<const SurfaceIndex>(surface_index(has_needles(mesh) ? without_needles(mesh) : mesh));
+    const TriangleMesh pieces = has_needles(mesh) ? without_needles(mesh, context) : TriangleMesh();
+    if (context.cancelled()) return ExecutionContext::cancelled_error();
+    input.source = std::make_shared<const SurfaceIndex>(surface_index(pieces.faces.empty() ? mesh : pieces));
     input.max_deviation = distance - reference.moved;
+    return Done{};
 }
 
 namespace {

@@ -64,8 +64,9 @@ struct Reference {
 };
 [[nodiscard]] Reference reference_for(const TriangleMesh& source, const std::shared_ptr<const CreasedMesh>& replaced);
 
-/// Has the simplifier keep its samples within `distance` of `reference`, both ways. O(faces log faces).
-void guard(SimplifyInput& input, const Reference& reference, double distance);
+/// Has the simplifier keep its samples within `distance` of `reference`, both ways. \return CANCELLED.
+/// O(faces log faces).
+[[nodiscard]] Status guard(SimplifyInput& input, const Reference& reference, double distance, const ExecutionContext& context);
 
 /// How close distances to a source of this diagonal are measured: where a limit is given it is the upper bound that counts, and
 /// a limit may be far below the default error.

@@ -14,9 +14,13 @@ template <class Policy, class Faces>
 [[nodiscard]] Expected<MethodResult> attempt_policy(const TriangleMesh& source, SubdividedMesh dense, const MethodRun& run,
                                                     double share, bool last, const Policy& policy, Faces faces_of,
                                                     const ExecutionContext& context) {
+    if (context.cancelled()) return ExecutionContext::cancelled_error();
     SimplifyInput input = prepare(source, std::move(dense), run.prepare);
+    if (context.cancelled()) return ExecutionContext::cancelled_error();
     const Reference reference = reference_for(source, run.prepare.replaced);
-    if (run.extended) guard(input, reference, share * run.max_deviation);
+    if (run.extended) {
+        if (Status guarded = guard(input, reference, share * run.max_deviation, context); !guarded) return guarded.error();
+    }
     const std::shared_ptr<const SurfaceIndex> index = input.source;
     Expected<MultiresMesh> mrr = run.extended ? simplify(std::move(input), Extended<Policy>{policy}, context)
                                               : simplify(std::move(input), policy, context);
@@ -44,9 +48,6 @@ template <class Policy, class Faces>
     constexpr double kFirstShare = 0.75;
     constexpr double kLastShare = 0.15;
     double share = kFirstShare;
-    if (run.admit) {
-        if (const Status admitted = run.admit(dense.mesh.face_count()); !admitted) return admitted.error();
-    }
     for (; run.limit && share / 2 >= kLastShare; share /= 2) {
         Expected<MethodResult> result = attempt_policy(source, dense, run, share, false, policy, faces_of, context);
         if (!result || keeps_limit(*result, run.limit)) return result;

@@ -26,7 +26,7 @@ Expected<SizePlan> plan_sizes(const TriangleMesh& mesh, const SizingOptions& siz
 }
 
 Expected<SizePlan> plan_by_curvature(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases, double tolerance,
-                                     double usual, std::uint32_t face_budget) {
+                                     double usual, std::uint32_t face_budget, const ExecutionContext& context) {
     SizingOptions sizing;
     sizing.chord_error = kChordShare * tolerance;
     sizing.max_size = usual;
@@ -34,7 +34,8 @@ Expected<SizePlan> plan_by_curvature(const TriangleMesh& mesh, const std::vector
         sizing.min_size = std::min(least, usual);
         Expected<SizeField> field = make_size_field(mesh, sizing, creases);
         if (!field) return field.error();
-        if (least >= usual || predict_subdivision(mesh, *field, face_budget) <= face_budget) {
+        if (context.cancelled()) return ExecutionContext::cancelled_error();
+        if (least >= usual || predict_subdivision(mesh, *field, face_budget, &context) <= face_budget) {
             return SizePlan{*std::move(field), usual, false};
         }
     }

@@ -25,7 +25,8 @@ struct SizePlan {
 /// The plan where nothing is asked for: faces get smaller than `usual` where the surface bends, so that a chord stays within half
 /// of `tolerance` of it, but no more than are worth waiting for. O(faces log faces + face_budget).
 [[nodiscard]] Expected<SizePlan> plan_by_curvature(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,
-                                                   double tolerance, double usual, std::uint32_t face_budget);
+                                                   double tolerance, double usual, std::uint32_t face_budget,
+                                                   const ExecutionContext& context);
 
 /// Sizes allowed at the vertices of `fine`, a subdivision of `source`. O(faces log faces).
 [[nodiscard]] std::vector<double> allowed_sizes(const SubdividedMesh& fine, const TriangleMesh& source, const SizePlan& plan);

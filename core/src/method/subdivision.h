@@ -17,17 +17,16 @@ template <class Next>
 }
 
 /// subdivide_to_size, with edges of open boundaries split or `frozen`.
-[[nodiscard]] inline Expected<SubdividedMesh> to_size(const TriangleMesh& mesh, double size, bool frozen,
-                                                      std::uint32_t face_limit, const ExecutionContext& context) {
-    return frozen ? subdivide_to_size_inside(mesh, size, face_limit, context)
-                  : subdivide_to_size(mesh, size, face_limit, context);
+[[nodiscard]] inline Expected<SubdividedMesh> to_size(const TriangleMesh& mesh, double size, bool frozen, const FaceLimit& limit,
+                                                      const ExecutionContext& context) {
+    return frozen ? subdivide_to_size_inside(mesh, size, limit, context) : subdivide_to_size(mesh, size, limit, context);
 }
 
 /// subdivide_to_sizes, with edges of open boundaries split or `frozen`. \pre `sizes` was made for `mesh`.
 [[nodiscard]] inline Expected<SubdividedMesh> to_sizes(const TriangleMesh& mesh, const SizePlan& sizes, bool frozen,
-                                                       std::uint32_t face_limit, const ExecutionContext& context) {
-    return frozen ? subdivide_to_sizes_inside(mesh, sizes.field, face_limit, context)
-                  : subdivide_to_sizes(mesh, sizes.field, face_limit, context);
+                                                       const FaceLimit& limit, const ExecutionContext& context) {
+    return frozen ? subdivide_to_sizes_inside(mesh, sizes.field, limit, context)
+                  : subdivide_to_sizes(mesh, sizes.field, limit, context);
 }
 
 }  // namespace vsplit

@@ -83,37 +83,41 @@ std::uint64_t predict_inside(const TriangleMesh& mesh, double max_edge, std::uin
 
 }  // namespace
 
-Expected<SubdividedMesh> subdivide_to_size_inside(const TriangleMesh& mesh, double max_edge, std::uint32_t face_limit,
+Expected<SubdividedMesh> subdivide_to_size_inside(const TriangleMesh& mesh, double max_edge, const FaceLimit& limit,
                                                   const ExecutionContext& context) {
-    if (Status valid = check_subdivision(mesh, max_edge, face_limit); !valid) return valid.error();
+    if (Status valid = check_subdivision(mesh, max_edge, limit.most); !valid) return valid.error();
     const InsideSize rule(mesh, max_edge);
-    const std::uint64_t predicted = count_pieces(mesh, rule, point_of(mesh, rule), face_limit, &context);
+    const std::uint64_t predicted = count_pieces(mesh, rule, point_of(mesh, rule), limit.most, &context);
     if (context.cancelled()) return ExecutionContext::cancelled_error();
-    if (predicted > face_limit) {
-        const auto count = [&](double length) { return predict_inside(mesh, length, face_limit, &context); };
-        return too_many_faces(max_edge, face_limit, fitting_length(bounding_box(mesh).diagonal(), face_limit, count));
+    if (predicted > limit.most) {
+        const auto count = [&](double length) { return predict_inside(mesh, length, limit.most, &context); };
+        return too_many_faces(max_edge, limit.most, fitting_length(bounding_box(mesh).diagonal(), limit.most, count));
     }
+    if (Status may = limit.check(predicted); !may) return may.error();
     return subdivide_by(mesh, rule, point_of(mesh, rule), predicted, context);
 }
 
-Expected<SubdividedMesh> subdivide_to_sizes_inside(const TriangleMesh& mesh, const SizeField& field, std::uint32_t face_limit,
+Expected<SubdividedMesh> subdivide_to_sizes_inside(const TriangleMesh& mesh, const SizeField& field, const FaceLimit& limit,
                                                    const ExecutionContext& context) {
     InsideSize rule(mesh, 0);
     rule.field = &field;
-    const std::uint64_t predicted = count_pieces(mesh, rule, point_of(mesh, rule), face_limit, &context);
+    const std::uint64_t predicted = count_pieces(mesh, rule, point_of(mesh, rule), limit.most, &context);
     if (context.cancelled()) return ExecutionContext::cancelled_error();
-    if (predicted > face_limit) {
+    if (predicted > limit.most) {
         return Error{Cause::kLimitExceeded,
-                     "subdividing to these sizes makes more than " + std::to_string(face_limit) +
+                     "subdividing to these sizes makes more than " + std::to_string(limit.most) +
                          " faces, the limit; a larger min_size fits",
                      "sizing"};
     }
+    if (Status may = limit.check(predicted); !may) return may.error();
     return subdivide_by(mesh, rule, point_of(mesh, rule), predicted, context);
 }
 
-Expected<SubdividedMesh> subdivide_one_to_four_inside(const TriangleMesh& mesh, std::uint32_t times, std::uint32_t face_limit,
+Expected<SubdividedMesh> subdivide_one_to_four_inside(const TriangleMesh& mesh, std::uint32_t times, const FaceLimit& limit,
                                                       const ExecutionContext& context) {
-    if (Status valid = check_times(mesh, times, face_limit); !valid) return valid.error();
+    if (Status valid = check_times(mesh, times, limit.most); !valid) return valid.error();
+    // Edges of the boundary stay, so it will be fewer.
+    if (Status may = limit.check(std::uint64_t{mesh.face_count()} << (2 * times)); !may) return may.error();
     const InsideSize rule(mesh, 0);
     auto current = start_subdivision<InsideSize>(mesh, point_of(mesh, rule));
     for (std::uint32_t round = 0; round < times; ++round) {

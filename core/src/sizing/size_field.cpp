@@ -187,27 +187,30 @@ std::vector<double> graded_sizes(const TriangleMesh& mesh, std::vector<double> s
     return sizes;
 }
 
-std::uint64_t predict_subdivision(const TriangleMesh& mesh, const SizeField& field, std::uint64_t limit) {
-    return predict_with(mesh, {field, 0}, limit, nullptr);
+std::uint64_t predict_subdivision(const TriangleMesh& mesh, const SizeField& field, std::uint64_t limit,
+                                  const ExecutionContext* context) {
+    return predict_with(mesh, {field, 0}, limit, context);
 }
 
-Expected<SubdividedMesh> subdivide_to_sizes(const TriangleMesh& mesh, const SizeField& field, std::uint32_t face_limit,
+Expected<SubdividedMesh> subdivide_to_sizes(const TriangleMesh& mesh, const SizeField& field, const FaceLimit& limit,
                                             const ExecutionContext& context) {
-    if (mesh.face_count() > face_limit) {
+    if (mesh.face_count() > limit.most) {
         return Error{Cause::kLimitExceeded,
-                     "the mesh has " + std::to_string(mesh.face_count()) + " faces; the limit is " + std::to_string(face_limit),
+                     "the mesh has " + std::to_string(mesh.face_count()) + " faces; the limit is " + std::to_string(limit.most),
                      "sizing"};
     }
     const FieldSize rule{field, 0};
-    const std::uint64_t predicted = predict_with(mesh, rule, face_limit, &context);
-    if (predicted > face_limit) {
-        const double fitting = fitting_min_size(mesh, field, face_limit, context);
+    const std::uint64_t predicted = predict_with(mesh, rule, limit.most, &context);
+    if (predicted > limit.most) {
+        const double fitting = fitting_min_size(mesh, field, limit.most, context);
         if (context.cancelled()) return ExecutionContext::cancelled_error();
         return Error{Cause::kLimitExceeded,
-                     "subdividing to these sizes makes more than " + std::to_string(face_limit) +
+                     "subdividing to these sizes makes more than " + std::to_string(limit.most) +
                          " faces, the limit; with no size under " + number_text(fitting) + " (min_size) it fits",
                      "sizing"};
     }
+    if (context.cancelled()) return ExecutionContext::cancelled_error();
+    if (Status may = limit.check(predicted); !may) return may.error();
     return subdivide_by(mesh, rule, point_of(mesh, rule), predicted, context);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string_view>
@@ -18,12 +19,13 @@ struct Progress {
 
 /// What a long verb runs in: who hears of its progress, who may stop it, how many threads it may take.
 ///
-/// Progress is reported at every stage and every 1024 collapses, and a cancel obeyed every 64 collapses, between rounds of
-/// subdivision and between stages: well under 10 ms while simplifying, up to a pass over all faces elsewhere. Always on the
-/// thread that called the verb. Not copyable; must outlive the call. `cancel()` may be called from any thread.
+/// Progress is reported at every stage and every 1024 collapses, always on the thread that called the verb. A cancel is obeyed
+/// every 64 collapses and between passes over all faces: well under 10 ms while simplifying, as long as a pass takes elsewhere.
+/// Not copyable; must outlive the call. `cancel()` may be called from any thread.
 class ExecutionContext {
 public:
     using ProgressHandler = std::function<void(const Progress&)>;
+    using Clock = std::chrono::steady_clock;
 
     ExecutionContext() = default;
     explicit ExecutionContext(ProgressHandler on_progress, unsigned threads = 0)
@@ -32,7 +34,11 @@ public:
     ExecutionContext& operator=(const ExecutionContext&) = delete;
 
     void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
-    [[nodiscard]] bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+    /// Cancels when `time` comes. \pre nothing runs in this yet.
+    void cancel_at(Clock::time_point time) { until_ = time; }
+    [[nodiscard]] bool cancelled() const { return cancelled_.load(std::memory_order_relaxed) || late(); }
+    /// Whether the time of `cancel_at` has come.
+    [[nodiscard]] bool late() const { return until_ != Clock::time_point::max() && Clock::now() >= until_; }
 
     /// Threads to use; 0 means all cores. Results do not depend on it.
     [[nodiscard]] unsigned threads() const { return threads_; }
@@ -49,6 +55,7 @@ public:
 private:
     ProgressHandler on_progress_;
     unsigned threads_ = 0;
+    Clock::time_point until_ = Clock::time_point::max();
     std::atomic<bool> cancelled_{false};
 };
 

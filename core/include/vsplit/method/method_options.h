@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "vsplit/features/creases.h"
 #include "vsplit/mesh/triangle_mesh.h"
 #include "vsplit/sizing/sizing_options.h"
+#include "vsplit/subdivide/subdivide.h"
 
 namespace vsplit {
 
@@ -85,9 +85,7 @@ using MethodOptions = std::variant<ImproveOptions, ControlOptions>;
 /// Limits the host sets, not the user of a method.
 struct MethodLimits {
     std::uint32_t max_faces = 20'000'000;  ///< after subdivision
-    /// Asked when the number of faces after subdivision is known, before memory is taken for the simplification of so many. An
-    /// error ends the method with it. Empty: they may.
-    std::function<Status(std::uint32_t faces)> admit{};
+    FaceLimit::Admit admit{};              ///< asked before every subdivision
 };
 
 /// Ranges and contradictions. \return INVALID_OPTION or UNSUPPORTED naming the field, what it was and what would be accepted.

@@ -66,7 +66,8 @@ private:
 
 /// Faces that subdivide_to_sizes would make, or `limit` + 1 when they are more. Takes no memory to speak of.
 /// \pre `field` was made for `mesh`. O(min(result, limit) * (1 + spheres + boxes)).
-[[nodiscard]] std::uint64_t predict_subdivision(const TriangleMesh& mesh, const SizeField& field, std::uint64_t limit);
+[[nodiscard]] std::uint64_t predict_subdivision(const TriangleMesh& mesh, const SizeField& field, std::uint64_t limit,
+                                                const ExecutionContext* context = nullptr);
 
 /// Selective midpoint subdivision as in `subdivide_to_size`, but an edge is split when it is longer than the size at either end;
 /// midpoints have the field's size at their own place. The surface does not change.
@@ -75,9 +76,9 @@ private:
 /// than that shape's size / (1 - gradation / sqrt(3)), 1.21 times the size by default: the nearest corner is within the longest
 /// edge / sqrt(3), and may be allowed gradation times that more.
 ///
-/// Stage "subdivide". \pre `field` was made for `mesh`. \return LIMIT_EXCEEDED (field "sizing") when more than `face_limit` faces
+/// Stage "subdivide". \pre `field` was made for `mesh`. \return LIMIT_EXCEEDED (field "sizing") when more than `limit.most` faces
 /// would come out, naming a min_size that fits; CANCELLED. O(result * (1 + spheres + boxes)).
 [[nodiscard]] Expected<SubdividedMesh> subdivide_to_sizes(const TriangleMesh& mesh, const SizeField& field,
-                                                          std::uint32_t face_limit, const ExecutionContext& context);
+                                                          const FaceLimit& limit, const ExecutionContext& context);
 
 }  // namespace vsplit
