@@ -19,7 +19,7 @@ namespace vsplit::rpc {
 /// gone.
 class DownloadSource final : public MessageSource<v1::MeshChunk> {
 public:
-    static constexpr std::size_t kChunkBytes = std::size_t{256} * 1024;
+    static constexpr std::size_t kChunkBytes = std::size_t{64} * 1024;
 
     /// \return NOT_FOUND, NOT_READY, INVALID_OPTION (also unit), UNSUPPORTED (order), UNAVAILABLE.
     [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service, FileShelf& shelf,

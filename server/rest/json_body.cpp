@@ -98,7 +98,7 @@ Awaitable<std::variant<std::unique_ptr<pb::Message>, Problem>> read_request(Exch
         if (text.size() < kMoment) {
             parsed = parse();
         } else {
-            parsed = co_await off_thread(works.pool, parse);
+            parsed = co_await works.background.run(parse);
         }
         if (!parsed) co_return problem_of(parsed.error());
     }
@@ -110,7 +110,7 @@ Awaitable<std::variant<std::unique_ptr<pb::Message>, Problem>> read_request(Exch
 Awaitable<std::string> write_json(const pb::Message& message, JsonWorks works) {
     const auto write = [&message] { return wire::to_json(message) + '\n'; };
     if (message.ByteSizeLong() < kMoment) co_return write();
-    co_return co_await off_thread(works.pool, write);
+    co_return co_await works.background.run(write);
 }
 
 Awaitable<void> respond_json(Exchange& exchange, const pb::Message& message, JsonWorks works) {

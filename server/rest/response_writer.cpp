@@ -118,10 +118,10 @@ Awaitable<bool> ResponseWriter::write(const Parts& parts) {
 Awaitable<bool> ResponseWriter::send_compressed(std::string_view part) {
     const auto compress = [this, part] { return gzip_->take(part, false); };
     std::string made;
-    if (manner_.pool == nullptr || part.size() < kMoment) {
+    if (manner_.background == nullptr || part.size() < kMoment) {
         made = compress();
     } else {
-        made = co_await off_thread(*manner_.pool, compress);
+        made = co_await manner_.background->run(compress);
     }
     const Parts parts = one(made);
     co_return co_await send_chunk(parts);
