@@ -32,7 +32,7 @@ void set_life(grpc::ServerBuilder& builder, const ConnectionLife& life) {
 }  // namespace
 
 GrpcServer::GrpcServer(service::MeshingService& service, const GrpcExtras& extras)
-    : ledger_(extras.observer, extras.gate, extras.limits.rpcs), rpcs_(service, ledger_) {}
+    : ledger_(extras.observer, extras.gate, extras.limits.rpcs), rpcs_(service, ledger_, extras.shelf) {}
 
 GrpcServer::~GrpcServer() { shutdown(std::chrono::milliseconds(0)); }
 

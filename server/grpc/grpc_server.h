@@ -39,6 +39,7 @@ struct GrpcExtras {
     GrpcLimits limits{};
     ConnectionLife life{};
     guard::TlsFiles tls{};  ///< none: plain
+    ShelfLimits shelf{};    ///< of files that are downloaded
 };
 
 /// The gRPC front door: vsplit.v1.Meshing, health (of the server and of that service) and reflection.

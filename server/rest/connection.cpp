@@ -18,7 +18,8 @@ constexpr std::size_t kLingerBytes = std::size_t{8} << 20;
 
 #if defined(TCP_NOTSENT_LOWAT)
 // Of what has not been sent the kernel would hold megabytes for a client that reads nothing: for hundreds of them that is
-// memory, and the time of the threads that everybody waits for. What is on its way counts apart, so that a fast client is as fast.
+// memory, and the time of the threads that everybody waits for. What is on its way counts apart, so that a fast client is as
+// fast.
 using UnsentBytes = net::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
 constexpr int kUnsentBytes = 64 * 1024;
 #endif
@@ -166,6 +167,7 @@ Awaitable<bool> Connection::serve_one(bool last) {
     if (last || draining_) manner.keep_alive = false;
     RequestMark mark = mark_of(parser.get(), stream_);
     manner.fields.emplace_back("X-Request-Id", mark.id);
+    manner.fields.emplace_back(wire::kTraceparentKey, wire::to_traceparent(mark.trace));
     Exchange exchange(stream_, buffer_, parser, std::move(manner), limits, std::move(mark));
     const auto start = std::chrono::steady_clock::now();
     co_await answer(exchange);

@@ -46,6 +46,8 @@ http::response<http::empty_body> ResponseWriter::make_header(const ResponseHead&
     if (head.gzip) header.set(http::field::content_encoding, "gzip");
     if (has_body_ && head.length && !head.gzip) {
         header.content_length(*head.length);
+    } else if (has_body_ && manner_.head_only && !head.gzip) {
+        // the length of a body that has not been made is left out
     } else if (has_body_ && manner_.version >= 11) {
         chunked_ = true;
         header.chunked(true);
