@@ -163,10 +163,13 @@ Awaitable<std::string> choose_type(Exchange& exchange, FileStream& file) {
 
 // Whether the request was answered without a byte of the file.
 Awaitable<bool> answer_without_bytes(Exchange& exchange, FileStream& file, const Answer& answer) {
-    if (co_await answer_condition(exchange, answer.freshness)) co_return true;
-    if (answer.range.kind != ByteRange::Kind::kUnsatisfiable) co_return false;
-    co_await exchange.fail(behind_the_end(file.size()));
-    co_return true;
+    bool answered = co_await answer_condition(exchange, answer.freshness);
+    if (!answered && answer.range.kind == ByteRange::Kind::kUnsatisfiable) {
+        const Problem problem = behind_the_end(file.size());
+        co_await exchange.fail(problem);
+        answered = true;
+    }
+    co_return answered;
 }
 
 // True when nothing more is to come of the file.
@@ -181,11 +184,13 @@ Awaitable<bool> answer_with(Exchange& exchange, FileStream& file) {
 
 RpcCall::Metadata only_description() { return {{wire::kDescribeFileKey, "1"}}; }
 
+bool is_conditional(const Exchange& exchange) {
+    return !exchange.header(http::field::if_match).empty() || !exchange.header(http::field::if_none_match).empty();
+}
+
 // Whether what is known of a file may be all that the answer needs.
 bool asks_first(const Exchange& exchange) {
-    const auto has = [&exchange](http::field name) { return !exchange.header(name).empty(); };
-    return exchange.method() == "HEAD" || has(http::field::if_match) || has(http::field::if_none_match) ||
-           has(http::field::range);
+    return exchange.method() == "HEAD" || is_conditional(exchange) || !exchange.header(http::field::range).empty();
 }
 
 // Whether a description was enough for an answer. Of a file that was not made yet its type is known and no more, which is enough
@@ -195,15 +200,14 @@ Awaitable<bool> answer_by_description(Exchange& exchange, FileStream& file) {
     if (type.empty()) co_return true;
     const Answer answer = plan(exchange, file, type);
     const bool known = file.size() > 0;
-    if (known) {
-        const bool answered = co_await answer_without_bytes(exchange, file, answer);
-        if (answered) co_return true;
+    bool answered = false;
+    if (known) answered = co_await answer_without_bytes(exchange, file, answer);
+    const bool head_is_enough = exchange.method() == "HEAD" && (known || !is_conditional(exchange));
+    if (!answered && head_is_enough) {
+        co_await send_file(exchange, file, answer);
+        answered = true;
     }
-    const bool conditional =
-        !exchange.header(http::field::if_match).empty() || !exchange.header(http::field::if_none_match).empty();
-    if (exchange.method() != "HEAD" || (!known && conditional)) co_return false;
-    co_await send_file(exchange, file, answer);
-    co_return true;
+    co_return answered;
 }
 
 // Begins the rpc with the request.

@@ -100,7 +100,7 @@ TEST(JsonTest, SaysInItsOwnWordsWhatIsWrongAndWhere) {
     expect(R"({"options": {"faces": )", Cause::kMalformedInput,
            broken(std::string("it ends after byte 22, in options.faces, where more is due") + kJson));
     expect(R"({"options": {"markedEdges": [1, x]}})", Cause::kMalformedInput,
-           broken(std::string("at byte 33, in options.markedEdges[0] it breaks off with \"x\"") + kJson));
+           broken(std::string("at byte 33, in options.markedEdges[0] it breaks off with \"1, x\"") + kJson));
     expect(R"({"options": {"tolerance": 1e400}})", Cause::kInvalidOption,
            "options.tolerance is 1e400; accepted is a number up to 1.8e308");
     expect(R"({"options": {"tolerance": "1e400"}})", Cause::kInvalidOption,

@@ -205,6 +205,7 @@ TEST_F(CancellationTest, WhatWaitsForAClientThatIsGoneIsNotComputed) {
         EXPECT_EQ(server_.stub().ListFeatures(call(milliseconds(100)).get(), features, &listed).error_code(),
                   grpc::StatusCode::DEADLINE_EXCEEDED);
         EXPECT_EQ(ended("GetQuality CANCELLED") + ended("ListFeatures CANCELLED"), 0U);
+        std::this_thread::sleep_for(milliseconds(300));  // until the server has heard of it
     }
     EXPECT_TRUE(eventually([&] { return ended("GetQuality CANCELLED") + ended("ListFeatures CANCELLED") == 2; }, kSoon));
     EXPECT_TRUE(get_quality(server_.stub(), id).status.ok());
