@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <sstream>
 #include <string_view>
@@ -43,11 +44,13 @@ Expected<std::optional<MidsideNodes>> nodes_of(const TriangleMesh& mesh, const W
     return std::optional(*std::move(nodes));
 }
 
-Expected<MeshFile> write_file(const Wanted& wanted, const std::filesystem::path& directory) {
+/// \param make_room called where the disk is full
+Expected<MeshFile> write_file(const Wanted& wanted, const std::filesystem::path& directory,
+                              const std::function<void()>& make_room) {
     const Expected<service::OpenedMesh> opened = wanted.mesh.open();
     if (!opened) return opened.error();
     MeshFile file;
-    file.mesh = opened->ref;
+    file.facts.mesh = opened->ref;
     std::shared_ptr<const TriangleMesh> mesh = opened->mesh;
     Expected<std::optional<MidsideNodes>> nodes = nodes_of(*mesh, wanted);
     if (!nodes) return nodes.error();
@@ -59,12 +62,18 @@ Expected<MeshFile> write_file(const Wanted& wanted, const std::filesystem::path&
         if (*nodes) convert_lengths((*nodes)->positions, *from, *to);
         mesh = std::move(converted);
     }
-    if (*nodes) file.nodes_on_chord = (*nodes)->on_chord;
+    if (*nodes) file.facts.nodes_on_chord = (*nodes)->on_chord;
     Expected<std::string> text =
         *nodes ? write_second_order(*mesh, **nodes, wanted.format) : Expected<std::string>(write_mesh(*mesh, wanted.format, to));
     if (!text) return text.error();
-    file.digest = guard::hex_digits(guard::digest_of(*text));
-    if (Expected<service::FileMapping> mapped = map_file(*text, directory); mapped) {
+    file.facts.size = text->size();
+    file.facts.digest = guard::hex_digits(guard::digest_of(*text));
+    Expected<service::FileMapping> mapped = map_file(*text, directory);
+    if (!mapped) {
+        make_room();
+        mapped = map_file(*text, directory);
+    }
+    if (mapped) {
         file.mapping.emplace(*std::move(mapped));
     } else {
         file.text = *std::move(text);
@@ -114,21 +123,60 @@ std::string file_name(const service::MeshRef& mesh, MeshFormat format) {
            std::string(name.substr(0, name.find('-')));
 }
 
-/// Names one file: whoever asks for the same gets the same bytes. A mesh that was uploaded is told from the one before it by its
-/// address; who waits for a file of it keeps it there.
-std::string key_of(const service::SessionSnapshot& session, const v1::DownloadMeshRequest& request, MeshFormat format,
-                   std::optional<LengthUnit> unit) {
-    std::ostringstream key;
-    key << session.id << ' ' << session.source.get() << ' ' << request.representation() << ' ' << request.faces() << ' '
-        << static_cast<int>(format) << ' ' << request.order() << ' ' << (unit ? static_cast<int>(*unit) : -1);
-    return key.str();
+FileName name_of(const service::SessionSnapshot& session, const v1::DownloadMeshRequest& request, MeshFormat format,
+                 std::optional<LengthUnit> unit) {
+    std::ostringstream text;
+    text << session.id << ' ' << request.representation() << ' ' << request.faces() << ' ' << static_cast<int>(format) << ' '
+         << request.order() << ' ' << (unit ? static_cast<int>(*unit) : -1);
+    return {text.str(), session.source};
+}
+
+void tell(const FileFacts& facts, MeshFormat format, v1::MeshChunk& chunk) {
+    chunk.set_size(facts.size);
+    chunk.set_file_name(file_name(facts.mesh, format));
+    chunk.set_faces(facts.mesh.faces);
+    chunk.set_nodes_on_chord(facts.nodes_on_chord);
+    chunk.set_digest(facts.digest);
+}
+
+/// What is known of a file that is not to be made: its type at least.
+class DescriptionSource final : public MessageSource<v1::MeshChunk> {
+public:
+    DescriptionSource(MeshFormat format, std::optional<FileFacts> facts) : format_(format), facts_(std::move(facts)) {}
+
+    [[nodiscard]] Step next(v1::MeshChunk& chunk, grpc::Status& /*end*/) override {
+        if (std::exchange(told_, true)) return Step::kEnd;
+        chunk.set_content_type(content_type(format_));
+        if (facts_) tell(*facts_, format_, chunk);
+        return Step::kMessage;
+    }
+
+private:
+    const MeshFormat format_;
+    const std::optional<FileFacts> facts_;
+    bool told_ = false;
+};
+
+/// Begins to write the file that `shared` waits for. False when the server is shut down.
+bool begin_file(service::MeshingService& service, const std::weak_ptr<FileShelf>& weak_shelf, const FileName& name,
+                const std::shared_ptr<SharedFile>& shared, const Wanted& wanted) {
+    return service.errand([name, wanted, waited_for = std::weak_ptr(shared), weak_shelf, &options = service.options()] {
+        const std::shared_ptr<SharedFile> file = waited_for.lock();
+        if (!file) return;
+        const auto make_room = [&] {
+            if (const std::shared_ptr<FileShelf> shelf = weak_shelf.lock()) shelf->clear();
+        };
+        file->put(service::guarded([&] { return write_file(wanted, options.temp_directory, make_room); }));
+        if (const std::shared_ptr<FileShelf> shelf = weak_shelf.lock()) shelf->made(name, file);
+    });
 }
 
 }  // namespace
 
-Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service, FileShelf& shelf,
+Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(service::MeshingService& service,
+                                                                             const std::shared_ptr<FileShelf>& shelf,
                                                                              const service::Caller& caller,
-                                                                             const v1::DownloadMeshRequest& request,
+                                                                             const v1::DownloadMeshRequest& request, Want want,
                                                                              const Wake& wake) {
     const Expected<std::optional<MeshFormat>> asked = wire::from_proto(request.format());
     if (!asked) return asked.error();
@@ -141,16 +189,17 @@ Expected<std::unique_ptr<MessageSource<v1::MeshChunk>>> DownloadSource::make(ser
     Expected<service::PickedMesh> mesh = service::PickedMesh::pick(*session, {request.representation(), request.faces()});
     if (!mesh) return mesh.error();
     if (Status possible = check_unit(format, mesh->unit(), *unit); !possible) return possible.error();
+    const FileName name = name_of(*session, request, format, *unit);
+    if (want == Want::kDescription) {
+        return std::unique_ptr<MessageSource>(std::make_unique<DescriptionSource>(format, shelf->find(name)));
+    }
     const Wanted wanted{*mesh, format, request.order() == 2 ? session->source : nullptr, *unit};
-    auto [file, first] = shelf.join(key_of(*session, request, format, *unit), session->source);
+    auto [file, first] = shelf->join(name);
     file->call_when_there(wake);
     std::unique_ptr<MessageSource> source(new DownloadSource(format, file));
-    if (!first) return source;
-    const bool taken = service.errand([waited_for = std::weak_ptr(file), wanted, &options = service.options()] {
-        const std::shared_ptr<SharedFile> shared = waited_for.lock();
-        if (shared) shared->put(service::guarded([&] { return write_file(wanted, options.temp_directory); }));
-    });
-    if (!taken) file->put(Error{Cause::kUnavailable, "the server is shutting down", ""});
+    if (first && !begin_file(service, shelf, name, file, wanted)) {
+        file->put(Error{Cause::kUnavailable, "the server is shutting down", ""});
+    }
     return source;
 }
 
@@ -173,12 +222,8 @@ void DownloadSource::fill(const MeshFile& file, v1::MeshChunk& chunk) {
     chunk.set_offset(sent_);
     chunk.set_data(part.data(), part.size());
     if (sent_ == 0) {
-        chunk.set_size(rest.size());
-        chunk.set_file_name(file_name(file.mesh, format_));
         chunk.set_content_type(content_type(format_));
-        chunk.set_faces(file.mesh.faces);
-        chunk.set_nodes_on_chord(file.nodes_on_chord);
-        chunk.set_digest(file.digest);
+        tell(file.facts, format_, chunk);
     }
     sent_ += part.size();
 }

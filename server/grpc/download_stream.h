@@ -15,16 +15,21 @@
 
 namespace vsplit::rpc {
 
-/// DownloadMesh: an errand writes the file, for all who ask for the same at the same time; it is not begun when all of them are
-/// gone.
+/// DownloadMesh: an errand writes the file, for all who ask for the same; it is not begun when all of them are gone.
 class DownloadSource final : public MessageSource<v1::MeshChunk> {
 public:
-    static constexpr std::size_t kChunkBytes = std::size_t{256} * 1024;
+    static constexpr std::size_t kChunkBytes = std::size_t{64} * 1024;
+
+    /// The file, or only what is known of it without making it: then a message without bytes, whose size is 0 where it is not
+    /// known.
+    enum class Want { kFile, kDescription };
 
     /// \return NOT_FOUND, NOT_READY, INVALID_OPTION (also unit), UNSUPPORTED (order), UNAVAILABLE.
-    [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service, FileShelf& shelf,
+    [[nodiscard]] static Expected<std::unique_ptr<MessageSource>> make(service::MeshingService& service,
+                                                                       const std::shared_ptr<FileShelf>& shelf,
                                                                        const service::Caller& caller,
-                                                                       const v1::DownloadMeshRequest& request, const Wake& wake);
+                                                                       const v1::DownloadMeshRequest& request, Want want,
+                                                                       const Wake& wake);
 
     [[nodiscard]] Step next(v1::MeshChunk& chunk, grpc::Status& end) override;
 

@@ -33,7 +33,7 @@ void set_life(grpc::ServerBuilder& builder, const ConnectionLife& life) {
 
 GrpcServer::GrpcServer(service::MeshingService& service, const GrpcExtras& extras)
     : ledger_(extras.observer, extras.gate, extras.limits.rpcs),
-      rpcs_(service, ledger_),
+      rpcs_(service, ledger_, extras.shelf),
       door_(extras.limits.connections, extras.on_connection_refused) {}
 
 GrpcServer::~GrpcServer() { shutdown(std::chrono::milliseconds(0)); }

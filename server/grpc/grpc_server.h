@@ -43,6 +43,7 @@ struct GrpcExtras {
     ConnectionLife life{};
     guard::TlsFiles tls{};                          ///< none: plain
     std::function<void()> on_connection_refused{};  ///< of a connection over the limit
+    ShelfLimits shelf{};                            ///< of files that are downloaded
 };
 
 /// The gRPC front door: vsplit.v1.Meshing, health (of the server and of that service) and reflection.

@@ -63,8 +63,10 @@ Status LevelParts::take_made() {
 Status LevelParts::begin_errand() {
     if (waiting_) return Done{};
     waiting_ = true;
-    const auto work = [box = box_, wake = wake_, levels = plan_.levels, choice = choice_, made = made_,
+    const auto work = [weak_box = std::weak_ptr(box_), wake = wake_, levels = plan_.levels, choice = choice_, made = made_,
                        with_base = plan_.with_base, first = record_, last = plan_.last_record]() mutable {
+        const std::shared_ptr<MadeBox> box = weak_box.lock();
+        if (!box) return;  // nobody waits any more
         box->put(service::guarded([&]() -> Expected<Made> {
             if (!made.encoded) {
                 made.encoded = levels->encoded(choice);
@@ -117,15 +119,17 @@ Expected<std::unique_ptr<MessageSource<v1::ProgressiveEvent>>> LevelSource::make
     const auto representation = service::find_requested(*session, wanted);
     if (!representation) return representation.error();
     auto news = std::make_shared<News>();
-    const bool taken = service.errand([news, wake, wanted, representation = *representation] {
+    const bool taken = service.errand([weak_news = std::weak_ptr(news), wake, wanted, representation = *representation] {
+        const std::shared_ptr<News> told = weak_news.lock();
+        if (!told) return;  // nobody waits any more
         Expected<service::ResolutionPlan> plan =
             service::guarded([&] { return service::plan_resolution(representation, wanted); });
         const bool found = plan.has_value();
         const service::ResolutionPlan kept = found ? *plan : service::ResolutionPlan();
-        news->plan.put(std::move(plan));
+        told->plan.put(std::move(plan));
         wake();
-        if (!found) return;
-        news->last.put(service::guarded(
+        if (!found || told.use_count() == 1) return;
+        told->last.put(service::guarded(
             [&]() -> Expected<v1::Representation> { return to_proto(*representation, *kept.levels, kept.level); }));
         wake();
     });

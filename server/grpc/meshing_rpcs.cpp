@@ -14,6 +14,7 @@
 #include "service/session_features.h"
 #include "vsplit/quality/mesh_quality.h"
 #include "wire/convert.h"
+#include "wire/describe_file.h"
 #include "wire/error_table.h"
 #include "wire/features.h"
 
@@ -22,6 +23,8 @@ namespace {
 
 constexpr std::uint32_t kDefaultWorst = 20;
 constexpr std::uint32_t kMostWorst = 1000;
+
+Error nobody_waits() { return {Cause::kCancelled, "the client is gone or its deadline has passed", ""}; }
 
 void finish(grpc::ServerUnaryReactor* reactor, const RpcWatch& watch, const MeshingRpcs::Answer& answer) {
     const Status open = watch.admit();
@@ -66,8 +69,8 @@ Status list_sessions(service::MeshingService& service, const service::Caller& ca
     return Done{};
 }
 
-Status get_quality(service::MeshingService& service, const service::Caller& caller, const v1::GetQualityRequest& request,
-                   v1::Quality& response) {
+Status get_quality(service::MeshingService& service, const service::Caller& caller, const grpc::CallbackServerContext& context,
+                   const v1::GetQualityRequest& request, v1::Quality& response) {
     const std::uint32_t worst = request.worst() == 0 ? kDefaultWorst : request.worst();
     if (worst > kMostWorst) {
         return Error{Cause::kInvalidOption,
@@ -81,7 +84,10 @@ Status get_quality(service::MeshingService& service, const service::Caller& call
     if (!picked) return picked.error();
     const Expected<service::OpenedMesh> opened = picked->open();
     if (!opened) return opened.error();
-    response = wire::to_proto(opened->quality(), worst_faces(*opened->mesh, worst));
+    if (context.IsCancelled()) return nobody_waits();
+    const Quality quality = opened->quality();
+    if (context.IsCancelled()) return nobody_waits();
+    response = wire::to_proto(quality, worst_faces(*opened->mesh, worst));
     response.set_unit(wire::to_proto(picked->unit()));
     if (*profile) *response.mutable_profile() = wire::to_proto(check_profile(*opened->mesh, **profile, worst));
     return Done{};
@@ -95,9 +101,11 @@ Status list_features(service::MeshingService& service, const service::Caller& ca
     return Done{};
 }
 
-Status remove_features(service::MeshingService& service, const service::Caller& caller, const v1::RemoveFeaturesRequest& request,
+Status remove_features(service::MeshingService& service, const service::Caller& caller,
+                       const grpc::CallbackServerContext& context, const v1::RemoveFeaturesRequest& request,
                        v1::RemoveFeaturesResponse& response) {
-    const auto done = service::remove_features_of(service, request.session(), wire::from_proto(request), caller);
+    const auto still_wanted = [&context] { return !context.IsCancelled(); };
+    const auto done = service::remove_features_of(service, request.session(), wire::from_proto(request), still_wanted, caller);
     if (!done) return done.error();
     response = wire::to_proto(done->made, done->source->report);
     return Done{};
@@ -111,9 +119,14 @@ grpc::ServerUnaryReactor* MeshingRpcs::answer_now(Context* context, const RpcWat
     return reactor;
 }
 
-grpc::ServerUnaryReactor* MeshingRpcs::answer_later(Context* context, const RpcWatch& watch, Submit submit, Answer answer) {
+grpc::ServerUnaryReactor* MeshingRpcs::answer_later(Context* context, const RpcWatch& watch, Submit submit, Answer answer,
+                                                    WhenLeft when_left) {
     grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
-    const bool taken = (service_.*submit)([reactor, watch, answer = std::move(answer)] { finish(reactor, watch, answer); });
+    const auto work = [context, reactor, watch, when_left, answer = std::move(answer)] {
+        const bool drop = when_left == WhenLeft::kDrop && context->IsCancelled();
+        finish(reactor, watch, drop ? Answer([](const service::Caller& /*any*/) { return Status(nobody_waits()); }) : answer);
+    };
+    const bool taken = (service_.*submit)(work);
     if (!taken)
         finish(reactor, watch, [](const service::Caller& /*any*/) -> Status {
             return Error{Cause::kUnavailable, "the server is shutting down", ""};
@@ -167,7 +180,8 @@ grpc::ServerUnaryReactor* MeshingRpcs::DeleteSession(Context* context, const v1:
                                                      google::protobuf::Empty* /*response*/) {
     return answer_later(
         context, RpcWatch(ledger_, *context, "DeleteSession", request->session()), &service::MeshingService::disk_errand,
-        [this, request](const service::Caller& caller) { return service_.sessions().remove(request->session(), caller.owner); });
+        [this, request](const service::Caller& caller) { return service_.sessions().remove(request->session(), caller.owner); },
+        WhenLeft::kDo);  // a page that is closed says so as the last thing
 }
 
 MeshingRpcs::EventReactor* MeshingRpcs::Improve(Context* context, const v1::ImproveRequest* request) {
@@ -183,16 +197,19 @@ MeshingRpcs::EventReactor* MeshingRpcs::SetResolution(Context* context, const v1
 }
 
 grpc::ServerWriteReactor<v1::MeshChunk>* MeshingRpcs::DownloadMesh(Context* context, const v1::DownloadMeshRequest* request) {
+    const bool describe = context->client_metadata().count(wire::kDescribeFileKey) > 0;
+    const DownloadSource::Want want = describe ? DownloadSource::Want::kDescription : DownloadSource::Want::kFile;
     return PullStream<v1::MeshChunk>::open(RpcWatch(ledger_, *context, "DownloadMesh", request->session()),
                                            [&](const service::Caller& caller, const Wake& wake) {
-                                               return DownloadSource::make(service_, shelf_, caller, *request, wake);
+                                               return DownloadSource::make(service_, shelf_, caller, *request, want, wake);
                                            });
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::GetQuality(Context* context, const v1::GetQualityRequest* request, v1::Quality* response) {
-    return answer_later(
-        context, RpcWatch(ledger_, *context, "GetQuality", request->session()), &service::MeshingService::errand,
-        [this, request, response](const service::Caller& caller) { return get_quality(service_, caller, *request, *response); });
+    return answer_later(context, RpcWatch(ledger_, *context, "GetQuality", request->session()), &service::MeshingService::errand,
+                        [this, context, request, response](const service::Caller& caller) {
+                            return get_quality(service_, caller, *context, *request, *response);
+                        });
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::ListFeatures(Context* context, const v1::ListFeaturesRequest* request,
@@ -206,8 +223,8 @@ grpc::ServerUnaryReactor* MeshingRpcs::ListFeatures(Context* context, const v1::
 grpc::ServerUnaryReactor* MeshingRpcs::RemoveFeatures(Context* context, const v1::RemoveFeaturesRequest* request,
                                                       v1::RemoveFeaturesResponse* response) {
     return answer_later(context, RpcWatch(ledger_, *context, "RemoveFeatures", request->session()),
-                        &service::MeshingService::intake, [this, request, response](const service::Caller& caller) {
-                            return remove_features(service_, caller, *request, *response);
+                        &service::MeshingService::intake, [this, context, request, response](const service::Caller& caller) {
+                            return remove_features(service_, caller, *context, *request, *response);
                         });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string_view>
 
 #include "grpc/file_shelf.h"
@@ -15,7 +16,8 @@ namespace vsplit::rpc {
 class MeshingRpcs final : public v1::Meshing::CallbackService {
 public:
     /// Both must outlive the rpcs.
-    MeshingRpcs(service::MeshingService& service, RpcLedger& ledger) : service_(service), ledger_(ledger) {}
+    MeshingRpcs(service::MeshingService& service, RpcLedger& ledger, const ShelfLimits& shelf)
+        : service_(service), ledger_(ledger), shelf_(std::make_shared<FileShelf>(shelf)) {}
 
     using Context = grpc::CallbackServerContext;
     using UnaryReactor = grpc::ServerUnaryReactor;
@@ -43,16 +45,20 @@ public:
 
 private:
     UnaryReactor* answer_now(Context* context, const RpcWatch& watch, const Answer& answer);
+    /// What becomes of a call that nobody waits for any more when its turn comes.
+    enum class WhenLeft { kDrop, kDo };
+
     /// On a thread of the pool that `submit` stands for.
     using Submit = bool (service::MeshingService::*)(service::WorkerPool::Task);
-    UnaryReactor* answer_later(Context* context, const RpcWatch& watch, Submit submit, Answer answer);
+    UnaryReactor* answer_later(Context* context, const RpcWatch& watch, Submit submit, Answer answer,
+                               WhenLeft when_left = WhenLeft::kDrop);
 
     template <class Source, class Request>
     auto* stream(Context& context, const char* method, const Request& request);
 
     service::MeshingService& service_;
     RpcLedger& ledger_;
-    FileShelf shelf_;
+    const std::shared_ptr<FileShelf> shelf_;
 };
 
 }  // namespace vsplit::rpc

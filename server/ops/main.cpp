@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -115,6 +116,11 @@ rpc::GrpcExtras extras_of(const ServerOptions& options, const Guard& guard, Metr
     extras.limits.rpcs = options.max_rpcs;
     extras.limits.message_bytes = static_cast<int>(options.max_message_bytes);
     extras.limits.streams = static_cast<int>(options.max_streams);
+    // Of the disk that files of sessions may take, those that nobody reads just now take a tenth at most.
+    constexpr std::uint64_t kRestingShare = 10;
+    if (options.max_disk_bytes > 0) {
+        extras.shelf.resting_bytes = std::min(extras.shelf.resting_bytes, options.max_disk_bytes / kRestingShare);
+    }
     extras.life = {std::chrono::seconds(options.keepalive), std::chrono::seconds(options.max_connection_age)};
     return extras;
 }

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "ops/number_range.h"
+
 namespace vsplit::ops {
 namespace {
 
@@ -17,6 +19,8 @@ constexpr std::int64_t kLongestTtl = std::int64_t{100} * 366 * 24 * 3600;
 
 constexpr unsigned kMostThreads = 1024;
 constexpr std::uint32_t kDay = 24 * 3600;
+constexpr std::uint32_t kMostStreams = std::uint32_t{1} << 30;
+constexpr std::uint32_t kLeastMessageBytes = std::uint32_t{1} << 16;
 constexpr std::uint32_t kMostMessageBytes = std::uint32_t{1} << 30;
 
 bool takes_free_port(std::string_view listen) { return listen.size() > 2 && listen.substr(listen.size() - 2) == ":0"; }
@@ -86,13 +90,13 @@ private:
 
     void add_work() {
         app_.add_option("--workers", options_.service.workers, "Methods that run at a time; 0: one a core")
-            ->check(CLI::Range(0U, kMostThreads));
+            ->check(number_range(0U, kMostThreads));
         app_.add_option("--threads", options_.service.threads, "Threads of one method; 0: all cores")
-            ->check(CLI::Range(0U, kMostThreads));
+            ->check(number_range(0U, kMostThreads));
         app_.add_option("--data-dir", options_.data_dir,
                         "Directory to keep sessions in, so that they outlive the server. Default: they do not");
         app_.add_option("--session-ttl", ttl_, "Seconds that an unused session lives")
-            ->check(CLI::Range(std::int64_t{1}, kLongestTtl));
+            ->check(number_range(std::int64_t{1}, kLongestTtl));
         app_.add_option("--log-level", options_.log_level, "What is logged to stderr")
             ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}).description(""))
             ->option_text("LEVEL=info: debug, info, warning, error or off");
@@ -100,14 +104,18 @@ private:
             ->check(CLI::IsMember({"text", "json"}).description(""))
             ->option_text("text|json");
         app_.add_option("--slow-job", options_.slow_job, "Seconds; a method that takes longer is logged as a warning. 0: none")
-            ->check(CLI::Range(0.0, 1e9));
+            ->check(number_range(0.0, 1e9));
     }
 
     void add_limits() {
         constexpr const char* kGroup = "Limits";
         service::Limits& limits = options_.service.limits;
-        const auto add = [this](const char* name, auto& value, const char* help) {
-            return app_.add_option(name, value, help)->group(kGroup)->check(CLI::PositiveNumber);
+        const auto add_within = [this](const CLI::Validator& range, const char* name, auto& value, const char* help) {
+            app_.add_option(name, value, help)->group(kGroup)->check(range);
+        };
+        const auto add = [&](const char* name, auto& value, const char* help, std::uint32_t least = 1) {
+            using Number = std::remove_reference_t<decltype(value)>;
+            add_within(number_from(Number{least}), name, value, help);
         };
         add("--max-upload-bytes", limits.upload_bytes, "Bytes of an uploaded file");
         add("--max-faces", limits.faces, "Faces of an uploaded mesh");
@@ -115,38 +123,31 @@ private:
         add("--max-sessions", limits.sessions, "Sessions at a time");
         add("--max-sessions-by-client", limits.sessions_by_client, "Sessions of one token at a time");
         add("--max-representations", limits.representations, "Representations of a session");
-        app_.add_option("--max-waiting", limits.waiting_jobs, "Requests that wait in a session while one runs")->group(kGroup);
+        add("--max-waiting", limits.waiting_jobs, "Requests that wait in a session while one runs", 0);
         add("--max-queued", limits.queued_jobs, "Requests that wait in all sessions together");
         add("--max-job-seconds", limits.job_seconds, "Seconds that one method runs");
-        app_.add_option("--max-memory-bytes", limits.memory_bytes,
-                        "Bytes of meshes, representations and methods in memory; 0: three quarters of what there is")
-            ->group(kGroup)
-            ->check(CLI::NonNegativeNumber);
-        app_.add_option("--max-disk-bytes", options_.max_disk_bytes,
-                        "Bytes of meshes and representations in --data-dir; 0: no limit")
-            ->group(kGroup)
-            ->check(CLI::NonNegativeNumber);
+        add("--max-memory-bytes", limits.memory_bytes,
+            "Bytes of meshes, representations and methods in memory; 0: three quarters of what there is", 0);
+        add("--max-disk-bytes", options_.max_disk_bytes, "Bytes of meshes and representations in --data-dir; 0: no limit", 0);
         add("--max-rpcs", options_.max_rpcs, "Rpcs at a time");
-        add("--max-streams", options_.max_streams, "Rpcs of one gRPC connection at a time; more wait at the client")
-            ->check(CLI::Range(1U, std::uint32_t{1} << 30));
-        add("--max-message-bytes", options_.max_message_bytes, "Bytes of one gRPC message")
-            ->check(CLI::Range(std::uint32_t{1} << 16, kMostMessageBytes));
+        add_within(number_range(1U, kMostStreams), "--max-streams", options_.max_streams,
+                   "Rpcs of one gRPC connection at a time; more wait at the client");
+        add_within(number_range(kLeastMessageBytes, kMostMessageBytes), "--max-message-bytes", options_.max_message_bytes,
+                   "Bytes of one gRPC message");
         add("--max-connections", options_.rest.limits.connections, "Connections at a time, by gRPC and by HTTP each");
-        app_.add_option("--max-request-rate", options_.max_request_rate,
-                        "Requests a second of one client, a token or else an address, and twice as many at once; 0: no limit")
-            ->group(kGroup)
-            ->check(CLI::Range(0.0, 1e9));
+        add_within(number_range(0.0, 1e9), "--max-request-rate", options_.max_request_rate,
+                   "Requests a second of one client, a token or else an address, and twice as many at once; 0: no limit");
     }
 
     void add_life() {
         app_.add_option("--drain", options_.drain, "Seconds that what runs has to end after SIGTERM")
-            ->check(CLI::Range(0U, kDay));
+            ->check(number_range(0U, kDay));
         app_.add_option("--keepalive", options_.keepalive,
                         "Seconds of silence before a gRPC client is asked for a sign of life, 20 s to answer; 0: never")
-            ->check(CLI::Range(0U, kDay));
+            ->check(number_range(0U, kDay));
         app_.add_option("--max-connection-age", options_.max_connection_age,
                         "Seconds after which a gRPC client is told to connect anew, when its rpcs are done; 0: never")
-            ->check(CLI::Range(0U, 20 * kDay));
+            ->check(number_range(0U, 20 * kDay));
     }
 
     ServerOptions options_;
@@ -176,7 +177,8 @@ void add_environment(CLI::App& app, const Environment& environment, std::vector<
         if (option->get_lnames().empty()) continue;
         const std::string& name = option->get_lnames().front();
         if ((!option->get_configurable() && name != "config") || is_given(arguments, name)) continue;
-        if (const std::optional<std::string> value = environment(variable_of(name))) more.push_back("--" + name + '=' + *value);
+        const std::string value = environment(variable_of(name)).value_or("");
+        if (!value.empty()) more.push_back("--" + name + '=' + value);  // after a bare "=" CLI11 would take the next argument
     }
     arguments.insert(arguments.begin(), more.begin(), more.end());
 }

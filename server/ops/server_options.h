@@ -46,9 +46,9 @@ using Environment = std::function<std::optional<std::string>(const std::string& 
 /// The process's own.
 [[nodiscard]] std::optional<std::string> process_environment(const std::string& name);
 
-/// Reads the command line; what it leaves out comes from the environment, VSPLITD_NAME for --name, and what that leaves out from
-/// the file of --config. Or the status to exit with: 0 after --help, --version and --print-config, 1 after an error; what to say
-/// has been said.
+/// Reads the command line; what it leaves out comes from the environment, VSPLITD_NAME for --name (an empty one is none), and
+/// what that leaves out from the file of --config. Or the status to exit with: 0 after --help, --version and --print-config, 1
+/// after an error; what to say has been said.
 [[nodiscard]] std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv,
                                                                     const Environment& environment = process_environment);
 

@@ -15,7 +15,6 @@
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
-#include <boost/asio/thread_pool.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -42,15 +41,5 @@ inline auto into(ErrorCode& error) { return net::redirect_error(net::use_awaitab
 
 /// Bytes that take a thread that speaks to clients no more than a moment, whatever is made of them.
 inline constexpr std::size_t kMoment = std::size_t{64} * 1024;
-
-/// Runs `work` on a thread of `pool`, so that no connection waits for it, and goes on where the caller was.
-template <class Work>
-Awaitable<decltype(std::declval<Work&>()())> off_thread(net::thread_pool& pool, Work work) {
-    using Result = decltype(work());
-    // The coroutine's arguments live in its frame, a lambda's captures would not. Asio wants a result that can be empty.
-    constexpr auto kRun = [](Work task) -> Awaitable<std::optional<Result>> { co_return task(); };
-    std::optional<Result> result = co_await net::co_spawn(pool, kRun(std::move(work)), net::use_awaitable);
-    co_return *std::move(result);
-}
 
 }  // namespace vsplit::rest

@@ -1,5 +1,7 @@
 #include "rest/connection.h"
 
+#include <netinet/tcp.h>
+
 #include <array>
 #include <limits>
 #include <optional>
@@ -13,6 +15,14 @@ namespace {
 // For the last answer to reach a client that is still sending: closed at once, TCP would take it back.
 constexpr std::chrono::seconds kLingerTime{2};
 constexpr std::size_t kLingerBytes = std::size_t{8} << 20;
+
+#if defined(TCP_NOTSENT_LOWAT)
+// Of what has not been sent the kernel would hold megabytes for a client that reads nothing: for hundreds of them that is
+// memory, and the time of the threads that everybody waits for. What is on its way counts apart, so that a fast client is as
+// fast.
+using UnsentBytes = net::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
+constexpr int kUnsentBytes = 64 * 1024;
+#endif
 
 std::optional<Problem> header_problem(const ErrorCode& why, const RestLimits& limits) {
     if (why == http::error::header_limit || why == http::error::buffer_overflow) {
@@ -76,6 +86,9 @@ Connection::Connection(net::ip::tcp::socket socket, std::shared_ptr<net::ssl::co
     buffer_.max_size(gateway.limits().header_bytes + gateway.limits().ahead_bytes + kOneRead);
     ErrorCode ignored;
     stream_.socket().set_option(net::ip::tcp::no_delay(true), ignored);
+#if defined(TCP_NOTSENT_LOWAT)
+    stream_.socket().set_option(UnsentBytes(kUnsentBytes), ignored);
+#endif
     // LeaveWatch reads when the socket is said to be readable, which is not always so.
     stream_.socket().non_blocking(true, ignored);
 }
@@ -154,6 +167,7 @@ Awaitable<bool> Connection::serve_one(bool last) {
     if (last || draining_) manner.keep_alive = false;
     RequestMark mark = mark_of(parser.get(), stream_);
     manner.fields.emplace_back("X-Request-Id", mark.id);
+    manner.fields.emplace_back(wire::kTraceparentKey, wire::to_traceparent(mark.trace));
     Exchange exchange(stream_, buffer_, parser, std::move(manner), limits, std::move(mark));
     const auto start = std::chrono::steady_clock::now();
     co_await answer(exchange);

@@ -35,10 +35,12 @@ CorsAnswer check_origin(std::string_view origin, std::string_view host, std::spa
     const bool any = is_any(allowed);
     const bool named = std::find(allowed.begin(), allowed.end(), origin) != allowed.end();
     if (!any && !named) return {true, {}};
-    return {false,
-            {{"Access-Control-Allow-Origin", any ? "*" : std::string(origin)},
-             {"Access-Control-Expose-Headers", "Content-Disposition, Content-Range, ETag, Retry-After"},
-             {"Vary", "Origin"}}};
+    return {
+        false,
+        {{"Access-Control-Allow-Origin", any ? "*" : std::string(origin)},
+         {"Access-Control-Expose-Headers",
+          "Accept-Ranges, Content-Disposition, Content-Range, ETag, Retry-After, WWW-Authenticate, X-Request-Id, traceparent"},
+         {"Vary", "Origin"}}};
 }
 
 bool is_own_host(std::string_view host, std::span<const std::string> allowed) {
@@ -51,7 +53,8 @@ bool is_own_host(std::string_view host, std::span<const std::string> allowed) {
 
 HeaderFields preflight_fields(std::string_view allowed_methods) {
     return {{"Access-Control-Allow-Methods", std::string(allowed_methods)},
-            {"Access-Control-Allow-Headers", "Accept, Authorization, Content-Type, If-Match, If-None-Match, If-Range, Range"},
+            {"Access-Control-Allow-Headers",
+             "Accept, Authorization, Content-Type, If-Match, If-None-Match, If-Range, Range, X-Request-Id, traceparent"},
             {"Access-Control-Max-Age", "600"}};
 }
 

@@ -173,6 +173,7 @@ Awaitable<void> serve_events(Exchange& exchange, const Route& route, const Targe
     const std::shared_ptr<RpcCall> call = tools.rpcs.start(exchange, *route.rpc);
     cancel_when_left(exchange, call);
     co_await call->write(to_buffer(*std::get<std::unique_ptr<pb::Message>>(request)), true);
+    std::get<std::unique_ptr<pb::Message>>(request).reset();  // a method may run for an hour
     while (std::optional<grpc::ByteBuffer> event = co_await call->read()) {
         const bool going = co_await writer->take(*event);
         if (going) continue;

@@ -11,7 +11,7 @@
 #include "rest/freshness.h"
 #include "rest/handlers.h"
 #include "rest/message_shape.h"
-#include "wire/error_table.h"
+#include "wire/describe_file.h"
 
 namespace vsplit::rest {
 namespace pb = google::protobuf;
@@ -43,11 +43,9 @@ public:
 
     /// No more is wanted than what came; a file that came whole ends by itself.
     Awaitable<void> give_up(bool whole) {
-        if (whole) {
-            co_await call_->read();
-        } else {
-            call_->cancel();
-        }
+        std::optional<grpc::ByteBuffer> more;
+        if (whole) more = co_await call_->read();
+        if (!whole || more) call_->cancel();
         co_await call_->finish();
     }
 
@@ -99,10 +97,10 @@ Answer plan(const Exchange& exchange, FileStream& file, std::string type) {
 ResponseHead head_of(FileStream& file, const Answer& answer) {
     ResponseHead head;
     head.content_type = answer.type;
-    head.length = file.size();
+    if (file.size() > 0) head.length = file.size();
     head.gzip = answer.gzip;
     head.fields = fields_of(answer.freshness);
-    head.fields.emplace_back("Content-Disposition", disposition(file.file_name()));
+    if (!file.file_name().empty()) head.fields.emplace_back("Content-Disposition", disposition(file.file_name()));
     head.fields.emplace_back("Accept-Ranges", "bytes");
     if (answer.range.kind == ByteRange::Kind::kPart) {
         const std::string first = std::to_string(answer.range.first);
@@ -151,43 +149,104 @@ Awaitable<bool> send_file(Exchange& exchange, FileStream& file, const Answer& an
     co_return whole&& answer.range.kind == ByteRange::Kind::kWhole && !exchange.response().head_only();
 }
 
-// True when nothing more is to come of the file.
-Awaitable<bool> answer_with(Exchange& exchange, FileStream& file) {
+// The type to send the file as; empty where the client takes none and has been told.
+Awaitable<std::string> choose_type(Exchange& exchange, FileStream& file) {
     const std::string own = file.content_type();
     const std::array<std::string_view, 2> offers{own, kBytesType};
     const std::string accept = exchange.list(http::field::accept);
     const std::optional<std::size_t> offer = choose_media_type(accept, offers);
-    if (!offer) {
-        const std::string offered = own == kBytesType ? own : own + " and " + std::string(kBytesType);
-        co_await exchange.fail(not_acceptable(offered));
-        co_return false;
+    if (offer) co_return std::string(offers[*offer]);
+    const std::string offered = own == kBytesType ? own : own + " and " + std::string(kBytesType);
+    co_await exchange.fail(not_acceptable(offered));
+    co_return std::string();
+}
+
+// Whether the request was answered without a byte of the file.
+Awaitable<bool> answer_without_bytes(Exchange& exchange, FileStream& file, const Answer& answer) {
+    bool answered = co_await answer_condition(exchange, answer.freshness);
+    if (!answered && answer.range.kind == ByteRange::Kind::kUnsatisfiable) {
+        const Problem problem = behind_the_end(file.size());
+        co_await exchange.fail(problem);
+        answered = true;
     }
-    const Answer answer = plan(exchange, file, std::string(offers[*offer]));
-    if (co_await answer_condition(exchange, answer.freshness)) co_return false;
-    if (answer.range.kind == ByteRange::Kind::kUnsatisfiable) {
-        co_await exchange.fail(behind_the_end(file.size()));
-        co_return false;
-    }
+    co_return answered;
+}
+
+// True when nothing more is to come of the file.
+Awaitable<bool> answer_with(Exchange& exchange, FileStream& file) {
+    const std::string type = co_await choose_type(exchange, file);
+    if (type.empty()) co_return false;
+    const Answer answer = plan(exchange, file, type);
+    const bool answered = co_await answer_without_bytes(exchange, file, answer);
+    if (answered) co_return false;
     co_return co_await send_file(exchange, file, answer);
+}
+
+RpcCall::Metadata only_description() { return {{wire::kDescribeFileKey, "1"}}; }
+
+bool is_conditional(const Exchange& exchange) {
+    return !exchange.header(http::field::if_match).empty() || !exchange.header(http::field::if_none_match).empty();
+}
+
+// Whether what is known of a file may be all that the answer needs.
+bool asks_first(const Exchange& exchange) {
+    return exchange.method() == "HEAD" || is_conditional(exchange) || !exchange.header(http::field::range).empty();
+}
+
+// Whether a description was enough for an answer. Of a file that was not made yet its type is known and no more, which is enough
+// for a HEAD without conditions: it may leave out what only the making tells (RFC 9110 9.3.2).
+Awaitable<bool> answer_by_description(Exchange& exchange, FileStream& file) {
+    const std::string type = co_await choose_type(exchange, file);
+    if (type.empty()) co_return true;
+    const Answer answer = plan(exchange, file, type);
+    const bool known = file.size() > 0;
+    bool answered = false;
+    if (known) answered = co_await answer_without_bytes(exchange, file, answer);
+    const bool head_is_enough = exchange.method() == "HEAD" && (known || !is_conditional(exchange));
+    if (!answered && head_is_enough) {
+        co_await send_file(exchange, file, answer);
+        answered = true;
+    }
+    co_return answered;
+}
+
+// Begins the rpc with the request.
+Awaitable<std::shared_ptr<RpcCall>> ask_for(Exchange& exchange, const Route& route, const pb::Message& request, Tools tools,
+                                            const RpcCall::Metadata& more) {
+    const std::shared_ptr<RpcCall> call = tools.rpcs.start(exchange, *route.rpc, more);
+    cancel_when_left(exchange, call);
+    co_await call->write(to_buffer(request), true);
+    co_return call;
+}
+
+Awaitable<void> fail_without_file(Exchange& exchange, FileStream& file) {
+    const grpc::Status status = co_await file.finish();
+    Problem problem = problem_of(Error{Cause::kInternal, "the stream ended without a chunk", ""});
+    if (!status.ok()) problem = problem_of(status);
+    co_await exchange.fail(problem);
 }
 
 }  // namespace
 
 Awaitable<void> serve_file(Exchange& exchange, const Route& route, const Target& target, Tools tools) {
-    auto request = co_await read_request(exchange, route, target, tools.json);
-    if (auto* problem = std::get_if<Problem>(&request)) co_return co_await exchange.fail(*problem);
-    const std::shared_ptr<RpcCall> call = tools.rpcs.start(exchange, *route.rpc);
-    cancel_when_left(exchange, call);
-    co_await call->write(to_buffer(*std::get<std::unique_ptr<pb::Message>>(request)), true);
-    FileStream file(call, tools.json.schema, *route.rpc->output_type());
-    if (co_await file.next()) {
-        const bool to_the_end = co_await answer_with(exchange, file);
-        co_return co_await file.give_up(to_the_end);
+    auto read = co_await read_request(exchange, route, target, tools.json);
+    if (auto* problem = std::get_if<Problem>(&read)) co_return co_await exchange.fail(*problem);
+    const pb::Message& request = *std::get<std::unique_ptr<pb::Message>>(read);
+    if (asks_first(exchange)) {
+        const RpcCall::Metadata describe = only_description();
+        const std::shared_ptr<RpcCall> call = co_await ask_for(exchange, route, request, tools, describe);
+        FileStream description(call, tools.json.schema, *route.rpc->output_type());
+        if (!co_await description.next()) co_return co_await fail_without_file(exchange, description);
+        const bool answered = co_await answer_by_description(exchange, description);
+        co_await description.give_up(true);
+        if (answered) co_return;
     }
-    const grpc::Status status = co_await file.finish();
-    Problem problem = problem_of(Error{Cause::kInternal, "the stream ended without a chunk", ""});
-    if (!status.ok()) problem = problem_of(status);
-    co_await exchange.fail(problem);
+    const RpcCall::Metadata nothing;
+    const std::shared_ptr<RpcCall> call = co_await ask_for(exchange, route, request, tools, nothing);
+    FileStream file(call, tools.json.schema, *route.rpc->output_type());
+    if (!co_await file.next()) co_return co_await fail_without_file(exchange, file);
+    const bool to_the_end = co_await answer_with(exchange, file);
+    co_await file.give_up(to_the_end);
 }
 
 }  // namespace vsplit::rest

@@ -61,13 +61,13 @@ Gateway::Gateway(Backend backend, RestOptions options, std::unique_ptr<Schema> s
       schema_(std::move(schema)),
       router_(std::move(router)),
       budget_(options_.limits.all_json_bytes),
-      pool_(kHeavyThreads),
+      background_(kHeavyThreads),
       rpcs_(backend_.channel) {
     pages_ = operations_pages({backend_.ready, backend_.metrics, openapi_document(*schema_, router_, backend_.version)});
     for (auto& [path, page] : backend_.pages) pages_[path] = page;
 }
 
-Gateway::~Gateway() { pool_.join(); }
+Gateway::~Gateway() = default;
 
 Expected<std::unique_ptr<Gateway>> Gateway::make(Backend backend, RestOptions options) {
     Expected<std::unique_ptr<Schema>> schema = Schema::make(backend.descriptor_sets, backend.services);
@@ -86,7 +86,7 @@ ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& reques
     manner.version = request.version();
     manner.keep_alive = request.keep_alive();
     manner.head_only = request.method() == http::verb::head;
-    manner.pool = &pool_;
+    manner.background = &background_;
     manner.fields = check_origin(field(http::field::origin), field(http::field::host), options_.cors_origins).fields;
     return manner;
 }
@@ -173,7 +173,7 @@ Awaitable<void> Gateway::serve_ready(Exchange& exchange) {
 }
 
 Awaitable<void> Gateway::serve_rpc(Exchange& exchange, const Route& route, const Target& target) {
-    const Tools tools{rpcs_, {*schema_, pool_, budget_}};
+    const Tools tools{rpcs_, {*schema_, background_, budget_}};
     if (creates_with_mesh(exchange, route)) co_return co_await serve_create_with_mesh(exchange, route, target, tools);
     switch (shape_of(*route.rpc)) {
         case RpcShape::kUnary:

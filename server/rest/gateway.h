@@ -61,7 +61,7 @@ private:
     const Router router_;
     Pages pages_;
     JsonBudget budget_;
-    net::thread_pool pool_;
+    Background background_;
     RpcClient rpcs_;
 };
 

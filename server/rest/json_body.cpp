@@ -24,9 +24,26 @@ Problem too_large(const RestLimits& limits) {
                             " bytes, the server's limit; a mesh is sent as it is, not in JSON");
 }
 
-Problem too_many_now() {
-    Error error{Cause::kLimitExceeded, "the server holds as many JSON bodies as it has memory for", "", service::kRetryAfter};
-    return problem_of(error);
+Error too_many_now() {
+    return {Cause::kLimitExceeded, "the server holds as many JSON bodies as it has memory for", "", service::kRetryAfter};
+}
+
+// What is made of one, at most: in protobuf's messages here and in the rpc, and on the way between them. A list of {} takes many
+// times the bytes of its text.
+constexpr std::uint64_t kBytesOfMessage = 320;
+constexpr std::uint64_t kBytesOfValue = 32;
+
+// Holds the memory that will be taken. \return LIMIT_EXCEEDED.
+Status hold_what_is_made(const wire::JsonSize& size, std::uint64_t text_bytes, std::uint64_t limit, JsonShare& share) {
+    const std::uint64_t bytes = text_bytes + kBytesOfMessage * size.messages + kBytesOfValue * size.values;
+    if (bytes > limit) {
+        return Error{Cause::kLimitExceeded,
+                     "the JSON body has " + std::to_string(size.messages) + " objects and " + std::to_string(size.values) +
+                         " other values, which take about " + std::to_string(bytes) +
+                         " bytes; the server's limit json_memory is " + std::to_string(limit),
+                     ""};
+    }
+    return share.hold(bytes) ? Status(Done{}) : Status(too_many_now());
 }
 
 using TextOrProblem = std::variant<std::string, Problem>;
@@ -41,7 +58,7 @@ Awaitable<TextOrProblem> read_text(Exchange& exchange, JsonShare& share) {
         constexpr std::size_t kPart = std::size_t{64} * 1024;
         const std::size_t room = std::min<std::uint64_t>(kPart, declared.value_or(limits.json_bytes + 1) - text.size());
         const std::size_t before = text.size();
-        if (!share.hold(before + room)) co_return too_many_now();
+        if (!share.hold(before + room)) co_return problem_of(too_many_now());
         text.resize(before + room);
         const Expected<std::size_t> got = co_await exchange.body().read_some({text.data() + before, room});
         if (!got) co_return problem_of(got.error());
@@ -59,9 +76,10 @@ pb::Message* body_message(const Route& route, pb::Message& request) {
     return request.GetReflection()->MutableMessage(&request, field);
 }
 
-Status take_body(const Route& route, const std::string& text, pb::Message& request) {
-    if (pb::Message* const message = body_message(route, request)) return wire::from_json(text, *message);
-    return wire::from_json('{' + std::string("\"") + route.body + "\":" + text + '}', request);
+Status take_body(const Route& route, const std::string& text, pb::Message& request, const wire::AdmitJson& admit) {
+    constexpr auto kRefused = wire::UnknownFields::kRefused;
+    if (pb::Message* const message = body_message(route, request)) return wire::from_json(text, *message, kRefused, admit);
+    return wire::from_json('{' + std::string("\"") + route.body + "\":" + text + '}', request, kRefused, admit);
 }
 
 bool is_json(std::string_view type) { return same_token(media_type(type), kJsonType); }
@@ -93,12 +111,15 @@ Awaitable<std::variant<std::unique_ptr<pb::Message>, Problem>> read_request(Exch
         const std::string_view type = exchange.header(http::field::content_type);
         if (!type.empty() && !is_json(type)) co_return wrong_body_type(exchange, kJsonType);
         if (std::optional<Problem> coded = refuse_coding(exchange)) co_return *std::move(coded);
-        const auto parse = [&] { return take_body(route, text, *request); };
+        const auto admit = [&](const wire::JsonSize& size) {
+            return hold_what_is_made(size, text.size(), exchange.limits().json_memory, share);
+        };
+        const auto parse = [&] { return take_body(route, text, *request, admit); };
         Status parsed = Done{};
         if (text.size() < kMoment) {
             parsed = parse();
         } else {
-            parsed = co_await off_thread(works.pool, parse);
+            parsed = co_await works.background.run(parse);
         }
         if (!parsed) co_return problem_of(parsed.error());
     }
@@ -110,7 +131,7 @@ Awaitable<std::variant<std::unique_ptr<pb::Message>, Problem>> read_request(Exch
 Awaitable<std::string> write_json(const pb::Message& message, JsonWorks works) {
     const auto write = [&message] { return wire::to_json(message) + '\n'; };
     if (message.ByteSizeLong() < kMoment) co_return write();
-    co_return co_await off_thread(works.pool, write);
+    co_return co_await works.background.run(write);
 }
 
 Awaitable<void> respond_json(Exchange& exchange, const pb::Message& message, JsonWorks works) {

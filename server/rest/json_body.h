@@ -17,7 +17,7 @@ namespace vsplit::rest {
 /// Where the bodies and messages of requests are made of and into JSON: large ones on threads of their own.
 struct JsonWorks {
     const Schema& schema;
-    net::thread_pool& pool;
+    Background& background;
     JsonBudget& budget;
 };
 

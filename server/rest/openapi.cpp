@@ -5,6 +5,7 @@
 #include "rest/handlers.h"
 #include "rest/json_schema.h"
 #include "rest/message_shape.h"
+#include "rest/openapi_headers.h"
 #include "rest/pages.h"
 #include "rest/problem.h"
 #include "wire/error_table.h"
@@ -15,6 +16,15 @@ using Field = pb::FieldDescriptor;
 
 namespace {
 
+void append(Json& list, const Json& more) { list.insert(list.end(), more.begin(), more.end()); }
+
+// An answer that says what was wrong.
+Json problem(const char* description, std::initializer_list<const char*> headers) {
+    return {{"description", description},
+            {"headers", headers_of(headers)},
+            {"content", {{std::string(kProblemType), {{"schema", {{"$ref", "#/components/schemas/Problem"}}}}}}}};
+}
+
 // Writes one operation of the document.
 class Operation {
 public:
@@ -24,8 +34,7 @@ public:
         const std::string comment = comment_of(rpc_);
         Json operation{{"operationId", rpc_.name()}, {"summary", first_sentence(comment)}, {"description", comment}};
         operation["tags"] = {rpc_.service()->name()};
-        const Json all = parameters();
-        if (!all.empty()) operation["parameters"] = all;
+        operation["parameters"] = parameters();
         const Json body = request_body();
         if (!body.empty()) operation["requestBody"] = body;
         operation["responses"] = responses();
@@ -49,6 +58,8 @@ private:
                 all.push_back(parameter(field, "query"));
             }
         }
+        if (shape_of(rpc_) == RpcShape::kFile) append(all, file_parameters());
+        append(all, common_parameters());
         return all;
     }
 
@@ -97,20 +108,20 @@ private:
         Json all;
         all["200"] = success();
         if (shape_of(rpc_) == RpcShape::kFile) {
-            all["206"] = file("The range of the file that Range asks for, where If-Range names the file or is absent.");
-            all["304"] = {{"description", "If-None-Match names the file: the client has it."}};
+            all["206"] =
+                file("The range of the file that Range asks for, where If-Range names the file or is absent.", {"ContentRange"});
+            all["304"] = {{"description", "If-None-Match names the file: the client has it."}, {"headers", headers_of({"ETag"})}};
+            all["412"] = problem("If-Match names other files only.", {});
+            all["416"] = problem("The range begins behind the end of the file.", {"ContentRange"});
         }
         all["default"] = {{"$ref", "#/components/responses/Problem"}};
         return all;
     }
 
-    [[nodiscard]] static Json file(const char* description) {
-        const auto header = [](const char* text) { return Json{{"description", text}, {"schema", {{"type", "string"}}}}; };
-        return {{"description", description},
-                {"headers",
-                 {{"Content-Disposition", header("Its name.")},
-                  {"ETag", header("By which it is known: the same bytes have the same, whatever session they come from.")}}},
-                {"content", {{std::string(kBytesType), Json::object()}}}};
+    [[nodiscard]] static Json file(const char* description, std::initializer_list<const char*> more = {}) {
+        Json headers = headers_of({"ContentDisposition", "ETag", "AcceptRanges"});
+        headers.update(headers_of(more));
+        return {{"description", description}, {"headers", headers}, {"content", {{std::string(kBytesType), Json::object()}}}};
     }
 
     [[nodiscard]] Json success() const {
@@ -125,6 +136,7 @@ private:
                      "without "
                      "those that carry bytes; the last line is the result or an error, which is a Problem. application/x-vsplit: "
                      "every event as protobuf, its length before it as a varint."},
+                    {"headers", headers_of()},
                     {"content",
                      {{std::string(kJsonType), {{"schema", last_word(type)}}},
                       {"application/x-ndjson", {{"schema", schemas_.reference(type)}}},
@@ -135,6 +147,7 @@ private:
                 break;
         }
         return {{"description", first_sentence(comment_of(type)) + "."},
+                {"headers", headers_of()},
                 {"content", {{std::string(kJsonType), {{"schema", schemas_.reference(type)}}}}}};
     }
 
@@ -171,14 +184,15 @@ Json problem_schema() {
            {{"type", "integer"}, {"description", "Seconds after which the same request may succeed, where waiting helps."}}}}}};
 }
 
-Json page(const char* id, const char* summary, const char* type) {
-    return {{"get",
-             {{"operationId", id},
-              {"summary", summary},
-              {"tags", {"Operations"}},
-              {"responses",
-               {{"200", {{"description", summary}, {"content", {{type, Json::object()}}}}},
-                {"default", {{"$ref", "#/components/responses/Problem"}}}}}}}};
+enum class Secured { kYes, kNo };
+
+Json page(const char* id, const char* summary, const char* type, Secured secured = Secured::kNo) {
+    Json operation{{"operationId", id}, {"summary", summary}, {"tags", {"Operations"}}, {"parameters", common_parameters()}};
+    if (secured == Secured::kNo) operation["security"] = Json::array();
+    operation["responses"] = {
+        {"200", {{"description", summary}, {"headers", headers_of()}, {"content", {{type, Json::object()}}}}},
+        {"default", {{"$ref", "#/components/responses/Problem"}}}};
+    return {{"get", operation}};
 }
 
 std::string lower(std::string text) {
@@ -195,6 +209,8 @@ std::string openapi_document(const Schema& schema, const Router& router, std::st
     document["info"] = {
         {"title", "vsplit"}, {"version", version}, {"license", {{"name", "Apache-2.0"}, {"identifier", "Apache-2.0"}}}};
     document["servers"] = {{{"url", "/"}}};
+    // A server without tokens lets everybody in.
+    document["security"] = {Json::object(), {{"bearer", Json::array()}}};
     document["tags"] = Json::array();
     for (const pb::ServiceDescriptor* service : schema.services()) {
         document["tags"].push_back({{"name", service->name()}, {"description", comment_of(*service)}});
@@ -204,16 +220,24 @@ std::string openapi_document(const Schema& schema, const Router& router, std::st
     for (const Route& route : router.routes()) {
         paths[route.path.openapi_path()][lower(route.method)] = Operation(route, schemas).write();
     }
+    paths["/"] = page("Page", "The page for people with a browser; where it was not built, a few words.", "text/html");
     paths["/healthz"] = page("Health", "The server is alive.", "application/json");
     paths[std::string(kReadyPath)] = page("Readiness", "The server takes new work; 503 while it shuts down.", "application/json");
-    paths["/metrics"] = page("Metrics", "Metrics in Prometheus' text format.", "text/plain");
+    paths["/metrics"] = page("Metrics", "Metrics in Prometheus' text format.", "text/plain", Secured::kYes);
     paths["/openapi.json"] = page("OpenApi", "This document.", "application/json");
     Json& components = document["components"];
     components["schemas"] = schemas.all();
     components["schemas"]["Problem"] = problem_schema();
-    components["responses"]["Problem"] = {
-        {"description", "What was wrong; there are no other errors."},
-        {"content", {{std::string(kProblemType), {{"schema", {{"$ref", "#/components/schemas/Problem"}}}}}}}};
+    components["parameters"] = header_parameters();
+    components["headers"] = header_components();
+    components["responses"]["Problem"] =
+        problem("What was wrong; there are no other errors.", {"RetryAfter", "Allow", "Authenticate"});
+    components["securitySchemes"]["bearer"] = {
+        {"type", "http"},
+        {"scheme", "bearer"},
+        {"description",
+         "A token of the server's --token-file. 401 without one, 403 where it may only read and the operation writes. A server "
+         "without that file wants none."}};
     return document.dump(2) + '\n';
 }
 

@@ -39,17 +39,17 @@ public:
         using Reflection = pb::Reflection;
         switch (field_.cpp_type()) {
             case Field::CPPTYPE_INT32:
-                return number<std::int32_t>(&Reflection::SetInt32, &Reflection::AddInt32);
+                return number<std::int32_t>(&Reflection::GetInt32, &Reflection::SetInt32, &Reflection::AddInt32);
             case Field::CPPTYPE_INT64:
-                return number<std::int64_t>(&Reflection::SetInt64, &Reflection::AddInt64);
+                return number<std::int64_t>(&Reflection::GetInt64, &Reflection::SetInt64, &Reflection::AddInt64);
             case Field::CPPTYPE_UINT32:
-                return number<std::uint32_t>(&Reflection::SetUInt32, &Reflection::AddUInt32);
+                return number<std::uint32_t>(&Reflection::GetUInt32, &Reflection::SetUInt32, &Reflection::AddUInt32);
             case Field::CPPTYPE_UINT64:
-                return number<std::uint64_t>(&Reflection::SetUInt64, &Reflection::AddUInt64);
+                return number<std::uint64_t>(&Reflection::GetUInt64, &Reflection::SetUInt64, &Reflection::AddUInt64);
             case Field::CPPTYPE_DOUBLE:
-                return number<double>(&Reflection::SetDouble, &Reflection::AddDouble);
+                return number<double>(&Reflection::GetDouble, &Reflection::SetDouble, &Reflection::AddDouble);
             case Field::CPPTYPE_FLOAT:
-                return number<float>(&Reflection::SetFloat, &Reflection::AddFloat);
+                return number<float>(&Reflection::GetFloat, &Reflection::SetFloat, &Reflection::AddFloat);
             case Field::CPPTYPE_BOOL:
                 return boolean();
             case Field::CPPTYPE_ENUM:
@@ -63,29 +63,38 @@ public:
     }
 
 private:
-    template <class Value, class Set, class Add>
-    Status put(Set set, Add add, Value value) const {
+    template <class Value, class Get, class Set, class Add>
+    Status put(Get get, Set set, Add add, const Value& value) const {
         const pb::Reflection& reflection = *message_.GetReflection();
         if (field_.is_repeated()) {
             (reflection.*add)(&message_, &field_, value);
-        } else {
-            (reflection.*set)(&message_, &field_, value);
+            return Done{};
         }
+        if (reflection.HasField(message_, &field_) && (reflection.*get)(message_, &field_) != value) return contradiction();
+        (reflection.*set)(&message_, &field_, value);
         return Done{};
+    }
+
+    [[nodiscard]] Error contradiction() const {
+        const std::string name = wire::valid_utf8(name_, kQuotedBytes);
+        return {Cause::kInvalidOption,
+                name + " is said more than once, here as " + quoted(text_) +
+                    " and elsewhere as something else; accepted is one value in path, query and body together",
+                name};
     }
 
     [[nodiscard]] Error refusal() const { return wire::bad_value(name_, quoted(text_), wire::accepted_values(field_)); }
 
-    template <class Number, class Set, class Add>
-    Status number(Set set, Add add) const {
+    template <class Number, class Get, class Set, class Add>
+    Status number(Get get, Set set, Add add) const {
         Number value{};
         if (!parse(text_, value)) return refusal();
-        return put(set, add, value);
+        return put(get, set, add, value);
     }
 
     Status boolean() const {
         if (text_ != "true" && text_ != "false") return refusal();
-        return put(&pb::Reflection::SetBool, &pb::Reflection::AddBool, text_ == "true");
+        return put(&pb::Reflection::GetBool, &pb::Reflection::SetBool, &pb::Reflection::AddBool, text_ == "true");
     }
 
     Status enumerator() const {
@@ -98,7 +107,10 @@ private:
         const pb::EnumValueDescriptor* value = type.FindValueByName(upper);
         int number = 0;
         if (value == nullptr && parse(text_, number)) value = type.FindValueByNumber(number);
-        if (value != nullptr) return put(&pb::Reflection::SetEnumValue, &pb::Reflection::AddEnumValue, value->number());
+        if (value != nullptr) {
+            return put(&pb::Reflection::GetEnumValue, &pb::Reflection::SetEnumValue, &pb::Reflection::AddEnumValue,
+                       value->number());
+        }
         return refusal();
     }
 
@@ -107,7 +119,8 @@ private:
             return Error{Cause::kInvalidOption, std::string(name_) + " is bytes, which belong into the body", std::string(name_)};
         }
         // The contract's strings are UTF-8; what is not would fail far from here with other words.
-        return put(&pb::Reflection::SetString, &pb::Reflection::AddString, wire::valid_utf8(text_, text_.size() + 3));
+        return put(&pb::Reflection::GetString, &pb::Reflection::SetString, &pb::Reflection::AddString,
+                   wire::valid_utf8(text_, text_.size() + 3));
     }
 
     Status well_known() const {

@@ -46,6 +46,8 @@ http::response<http::empty_body> ResponseWriter::make_header(const ResponseHead&
     if (head.gzip) header.set(http::field::content_encoding, "gzip");
     if (has_body_ && head.length && !head.gzip) {
         header.content_length(*head.length);
+    } else if (has_body_ && manner_.head_only && !head.gzip) {
+        // the length of a body that has not been made is left out
     } else if (has_body_ && manner_.version >= 11) {
         chunked_ = true;
         header.chunked(true);
@@ -118,10 +120,10 @@ Awaitable<bool> ResponseWriter::write(const Parts& parts) {
 Awaitable<bool> ResponseWriter::send_compressed(std::string_view part) {
     const auto compress = [this, part] { return gzip_->take(part, false); };
     std::string made;
-    if (manner_.pool == nullptr || part.size() < kMoment) {
+    if (manner_.background == nullptr || part.size() < kMoment) {
         made = compress();
     } else {
-        made = co_await off_thread(*manner_.pool, compress);
+        made = co_await manner_.background->run(compress);
     }
     const Parts parts = one(made);
     co_return co_await send_chunk(parts);

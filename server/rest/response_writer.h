@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rest/asio.h"
+#include "rest/background.h"
 #include "rest/gzip.h"
 #include "rest/header_fields.h"
 #include "rest/rest_options.h"
@@ -30,7 +31,7 @@ struct ResponseManner {
     bool keep_alive = true;
     bool head_only = false;
     HeaderFields fields;               ///< of every answer, CORS's for example
-    net::thread_pool* pool = nullptr;  ///< for what is heavy; none for answers that never are
+    Background* background = nullptr;  ///< for what is heavy; none for answers that never are
 };
 
 /// Bytes that are written one after another.

@@ -11,8 +11,8 @@
 namespace vsplit::rest {
 namespace pb = google::protobuf;
 
-std::shared_ptr<RpcCall> RpcClient::start(Exchange& exchange, const pb::MethodDescriptor& rpc) {
-    RpcCall::Metadata metadata;
+std::shared_ptr<RpcCall> RpcClient::start(Exchange& exchange, const pb::MethodDescriptor& rpc, RpcCall::Metadata more) {
+    RpcCall::Metadata metadata = std::move(more);
     const std::string_view credentials = exchange.header(http::field::authorization);
     if (!credentials.empty()) metadata.emplace("authorization", credentials);
     const RequestMark& mark = exchange.mark();

@@ -22,8 +22,9 @@ public:
     RpcClient(const RpcClient&) = delete;
     RpcClient& operator=(const RpcClient&) = delete;
 
-    /// Begins an rpc.
-    [[nodiscard]] std::shared_ptr<RpcCall> start(Exchange& exchange, const google::protobuf::MethodDescriptor& rpc);
+    /// Begins an rpc; `more` is metadata for it alone.
+    [[nodiscard]] std::shared_ptr<RpcCall> start(Exchange& exchange, const google::protobuf::MethodDescriptor& rpc,
+                                                 RpcCall::Metadata more = {});
 
     enum class WhenLeft { kCancel, kGoOn };
 

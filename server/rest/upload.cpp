@@ -7,7 +7,7 @@
 #include "rest/accept.h"
 #include "rest/handlers.h"
 #include "rest/message_shape.h"
-#include "wire/error_table.h"
+#include "wire/field.h"
 
 namespace vsplit::rest {
 namespace pb = google::protobuf;
@@ -84,6 +84,7 @@ private:
 
 constexpr std::string_view kCreate = "vsplit.v1.Meshing.CreateSession";
 constexpr const char* kUpload = "vsplit.v1.Meshing.UploadMesh";
+constexpr const char* kSession = "session";
 constexpr const char* kDelete = "vsplit.v1.Meshing.DeleteSession";
 
 std::string text_of(const pb::Message& message, const char* field) {
@@ -91,7 +92,7 @@ std::string text_of(const pb::Message& message, const char* field) {
 }
 
 void set_session(pb::Message& message, const std::string& session) {
-    message.GetReflection()->SetString(&message, message.GetDescriptor()->FindFieldByName("session"), session);
+    message.GetReflection()->SetString(&message, message.GetDescriptor()->FindFieldByName(kSession), session);
 }
 
 Awaitable<Expected<std::string>> create_empty(Exchange& exchange, const pb::MethodDescriptor& create, Tools tools) {
@@ -103,12 +104,27 @@ Awaitable<Expected<std::string>> create_empty(Exchange& exchange, const pb::Meth
     co_return text_of(*session, "id");
 }
 
-Awaitable<void> delete_session(Exchange& exchange, const std::string& session, Tools tools) {
+// Whether it is gone. A limit on what is done at a time may be in the way for a moment.
+Awaitable<bool> delete_session(Exchange& exchange, const std::string& session, Tools tools) {
     const pb::MethodDescriptor& rpc = *tools.json.schema.find_rpc(kDelete);
     const auto request = tools.json.schema.new_message(rpc.input_type());
     set_session(*request, session);
-    // Where that fails the session expires; the client hears of what failed first.
-    static_cast<void>(co_await tools.rpcs.call(exchange, rpc, *request, RpcClient::WhenLeft::kGoOn));
+    const auto deleted = co_await tools.rpcs.call(exchange, rpc, *request, RpcClient::WhenLeft::kGoOn);
+    co_return deleted || deleted.error().retry_after == 0;
+}
+
+// Where that fails again and again the session expires.
+Awaitable<void> delete_later(Exchange& exchange, const std::string& session, Tools tools) {
+    constexpr int kTimes = 5;
+    constexpr std::chrono::seconds kPause(1);
+    net::steady_timer timer(exchange.executor());
+    for (int i = 0; i < kTimes; ++i) {
+        ErrorCode ignored;
+        timer.expires_after(kPause);
+        co_await timer.async_wait(into(ignored));
+        const bool gone = co_await delete_session(exchange, session, tools);
+        if (gone) co_return;
+    }
 }
 
 Awaitable<void> respond(Exchange& exchange, const pb::Descriptor* type, const Expected<grpc::ByteBuffer>& reply, Tools tools) {
@@ -146,12 +162,18 @@ Awaitable<void> serve_create_with_mesh(Exchange& exchange, const Route& route, c
     const auto first = tools.json.schema.new_message(upload.input_type());
     const Status bound = bind_target(route, target, *first);
     if (!bound) co_return co_await exchange.fail(problem_of(bound.error()));
+    if (!text_of(*first, kSession).empty()) {
+        const Error unknown = wire::unknown_field(kSession, *route.rpc->input_type());
+        co_return co_await exchange.fail(problem_of(unknown));
+    }
     const Expected<std::string> session = co_await create_empty(exchange, *route.rpc, tools);
     if (!session) co_return co_await exchange.fail(problem_of(session.error()));
     set_session(*first, *session);
     const Expected<grpc::ByteBuffer> reply = co_await Uploader(exchange, upload, tools).run(*first);
-    if (!reply) co_await delete_session(exchange, *session, tools);
+    bool there = reply.has_value();
+    if (!there) there = !co_await delete_session(exchange, *session, tools);
     co_await respond(exchange, upload.output_type(), reply, tools);
+    if (there && !reply) co_await delete_later(exchange, *session, tools);
 }
 
 }  // namespace vsplit::rest

@@ -17,13 +17,16 @@ Expected<std::shared_ptr<const SourceMesh>> source_of(const Session& session) {
 }
 
 /// `remove_features` within the limits that methods have.
-Expected<FeaturelessMesh> remove_within_limits(MeshingService& service, const TriangleMesh& mesh, const FeatureRemoval& removal) {
+Expected<FeaturelessMesh> remove_within_limits(MeshingService& service, const TriangleMesh& mesh, const FeatureRemoval& removal,
+                                               const std::function<bool()>& still_wanted) {
     const Limits& limits = service.options().limits;
     constexpr bool kWithRepair = true;  // its new faces are improved by what repairs are
     const std::string what = "removing features of " + std::to_string(mesh.face_count()) + " faces";
     const Expected<MemoryBudget::Share> room = service.memory().reserve(memory_to_read(mesh.face_count(), kWithRepair), what);
     if (!room) return room.error();
-    ExecutionContext context;
+    ExecutionContext context([&](const Progress& /*any*/) {
+        if (!still_wanted()) context.cancel();
+    });
     context.cancel_at(ExecutionContext::Clock::now() + std::chrono::seconds(limits.job_seconds));
     Expected<FeaturelessMesh> made = remove_features(mesh, removal, context);
     if (!made && context.late()) return took_too_long(what, limits);
@@ -54,7 +57,7 @@ Expected<FeaturesFound> list_features_of(MeshingService& service, std::string_vi
 }
 
 Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::string_view session, const FeatureRemoval& removal,
-                                             const Caller& caller) {
+                                             const std::function<bool()>& still_wanted, const Caller& caller) {
     const Expected<std::shared_ptr<Session>> found = service.sessions().find(session, caller.owner);
     if (!found) return found.error();
     const std::shared_ptr<void> held = Session::hold(*found);
@@ -64,10 +67,11 @@ Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::strin
     return guarded([&]() -> Expected<FeaturesRemoved> {
         const Expected<std::shared_ptr<const TriangleMesh>> whole = (*before)->mesh->get();
         if (!whole) return whole.error();
-        Expected<FeaturelessMesh> made = remove_within_limits(service, **whole, removal);
+        Expected<FeaturelessMesh> made = remove_within_limits(service, **whole, removal, still_wanted);
         if (!made) return made.error();
         if (made->removed.empty()) return FeaturesRemoved{*std::move(made), *before};
         MeshReport report = inspect(made->mesh);
+        if (!still_wanted()) return ExecutionContext::cancelled_error();
         report.unit = (*before)->report.unit;
         auto source = make_source(std::move(made->mesh), std::move(report), service.memory());
         if (Status set = (*found)->replace_source(*before, source); !set) return set.error();

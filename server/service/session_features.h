@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string_view>
 
 #include "service/meshing_service.h"
@@ -22,10 +23,11 @@ struct FeaturesRemoved {
     std::shared_ptr<const SourceMesh> source;
 };
 
-/// Puts the upload without some features in its place and drops the representations; where none goes, nothing changes. Heavy: for
-/// `intake`. \return NOT_FOUND, NOT_READY, BUSY, also where the mesh was replaced meanwhile; LIMIT_EXCEEDED (memory, time,
-/// faces); what `remove_features` returns.
+/// Puts the upload without some features in its place and drops the representations; where none goes, nothing changes, and where
+/// it is not `still_wanted`, which is asked now and then. Heavy: for `intake`. \return NOT_FOUND, NOT_READY, BUSY, also where the
+/// mesh was replaced meanwhile; LIMIT_EXCEEDED (memory, time, faces); what `remove_features` returns.
 [[nodiscard]] Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::string_view session,
-                                                           const FeatureRemoval& removal, const Caller& caller = {});
+                                                           const FeatureRemoval& removal,
+                                                           const std::function<bool()>& still_wanted, const Caller& caller = {});
 
 }  // namespace vsplit::service

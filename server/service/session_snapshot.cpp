@@ -7,12 +7,25 @@
 namespace vsplit::service {
 namespace {
 
+std::string ids_of(const SessionSnapshot& session) {
+    std::string ids;
+    for (const SessionSnapshot::RepresentationPointer& existing : session.representations) ids += ' ' + existing->id();
+    return ids;
+}
+
 Error unknown_representation(const SessionSnapshot& session, std::string_view id) {
     std::string message = "the session has no representation " + quoted(id);
     if (session.representations.empty()) return {Cause::kNotFound, message + "; it has none yet", "representation"};
-    message += "; it has";
-    for (const SessionSnapshot::RepresentationPointer& existing : session.representations) message += ' ' + existing->id();
-    return {Cause::kNotFound, message, "representation"};
+    return {Cause::kNotFound, message + "; it has" + ids_of(session), "representation"};
+}
+
+Error no_resolutions(const SessionSnapshot& session, std::uint32_t faces) {
+    std::string message =
+        "faces is " + std::to_string(faces) +
+        ", which chooses a resolution, but the upload has one only; accepted is faces together with the id of a "
+        "representation, or neither";
+    if (!session.representations.empty()) message += "; the session has" + ids_of(session);
+    return {Cause::kInvalidOption, message, "faces"};
 }
 
 }  // namespace
@@ -37,6 +50,7 @@ Expected<PickedMesh> PickedMesh::pick(const SessionSnapshot& session, const Mesh
         return Error{Cause::kNotReady, "the session has no mesh yet; UploadMesh gives it one", "session"};
     }
     if (ref.representation.empty()) {
+        if (ref.faces != 0) return no_resolutions(session, ref.faces);
         picked.upload_ = session.source;
         return picked;
     }

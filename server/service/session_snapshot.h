@@ -49,7 +49,8 @@ struct OpenedMesh {
 /// One mesh of a session, found but not yet built.
 class PickedMesh {
 public:
-    /// \return NOT_READY before an upload, NOT_FOUND for an unknown representation. O(representations).
+    /// \return NOT_READY before an upload, NOT_FOUND for an unknown representation, INVALID_OPTION (faces) for a resolution of
+    /// the upload. O(representations).
     [[nodiscard]] static Expected<PickedMesh> pick(const SessionSnapshot& session, const MeshRef& ref);
 
     /// Of its lengths. O(1).

@@ -6,10 +6,15 @@
 
 namespace vsplit::service {
 
-WorkerPool::WorkerPool(unsigned threads) {
+WorkerPool::WorkerPool(unsigned threads, ThreadPriority priority) {
     assert(threads > 0);
     threads_.reserve(threads);
-    for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+    for (unsigned i = 0; i < threads; ++i) {
+        threads_.emplace_back([this, priority] {
+            set_priority(priority);
+            work();
+        });
+    }
 }
 
 WorkerPool::~WorkerPool() { shutdown(); }

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "service/thread_priority.h"
+
 namespace vsplit::service {
 
 /// A fixed number of threads that run tasks in order of arrival.
@@ -21,7 +23,7 @@ public:
     using Ticket = std::uint64_t;
 
     /// \pre threads > 0.
-    explicit WorkerPool(unsigned threads);
+    explicit WorkerPool(unsigned threads, ThreadPriority priority = ThreadPriority::kUsual);
     ~WorkerPool();
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;

@@ -41,7 +41,7 @@ TEST(JsonTest, ReadsBackWhatItWrote) {
 
 TEST(JsonTest, RefusesWhatIsNoJsonOfTheMessage) {
     v1::Representation message;
-    for (const char* text : {"", "{", "[]", "7", "\xff", "{\"faces\": 1e999}"}) {
+    for (const char* text : {"", "{", "[]", "7", "\xff", "[1,2]", "null", "{}{}", "{'faces': 1}"}) {
         const Status read = from_json(text, message);
         ASSERT_FALSE(read) << text;
         EXPECT_EQ(read.error().cause, Cause::kMalformedInput);
@@ -77,6 +77,80 @@ TEST(JsonTest, NamesTheFieldThatDoesNotTakeItsValue) {
     expect(R"({"options": {"freezeBoundary": 1}})", "options.freezeBoundary", "1; accepted is true or false");
     expect(R"({"options": 5})", "options", "5; accepted is an object; a query names its fields with a dot");
     expect(R"({"session": 5})", "session", "5; accepted is text");
+}
+
+// Words of protobuf's or nlohmann's parser would say nothing to who writes JSON.
+TEST(JsonTest, SaysInItsOwnWordsWhatIsWrongAndWhere) {
+    struct Wrong {
+        const char* text;
+        Cause cause;
+        const char* message;
+    };
+    constexpr const char* kJson = "; accepted is JSON as RFC 8259 has it, in UTF-8";
+    const auto broken = [&](const std::string& what) { return "not the JSON of a vsplit.v1.ImproveRequest: " + what; };
+    const std::string fields = "; accepted is an object with session, source, options, encoding, quantisationBits";
+    const auto expect = [](const std::string& text, Cause cause, const std::string& message) {
+        const Error error = refusal_of(text);
+        EXPECT_EQ(error.cause, cause) << text;
+        EXPECT_EQ(error.message, message);
+    };
+    expect("[1,2]", Cause::kMalformedInput, broken("it is a list" + fields));
+    expect("7", Cause::kMalformedInput, broken("it is 7" + fields));
+    expect("", Cause::kMalformedInput, broken(std::string("it ends after byte 0, where more is due") + kJson));
+    expect(R"({"options": {"faces": )", Cause::kMalformedInput,
+           broken(std::string("it ends after byte 22, in options.faces, where more is due") + kJson));
+    expect(R"({"options": {"markedEdges": [1, x]}})", Cause::kMalformedInput,
+           broken(std::string("at byte 33, in options.markedEdges[0] it breaks off with \"1, x\"") + kJson));
+    expect(R"({"options": {"tolerance": 1e400}})", Cause::kInvalidOption,
+           "options.tolerance is 1e400; accepted is a number up to 1.8e308");
+    expect(R"({"options": {"tolerance": "1e400"}})", Cause::kInvalidOption,
+           "options.tolerance is \"1e400\"; accepted is a number");
+    expect(R"({"session": "a", "session": "b"})", Cause::kInvalidOption, "session is there twice; accepted is once");
+    expect(R"({"options": {"facesMin": 4, "faces_min": 5}})", Cause::kInvalidOption,
+           "options.facesMin is there twice; accepted is once");
+    expect(R"({"options": {"markedEdges": 1}})", Cause::kInvalidOption,
+           "options.markedEdges is 1; accepted is a list, each element a whole number from 0 to 4294967295");
+    expect(R"({"options": {"freezeBoundary": "true"}})", Cause::kInvalidOption,
+           "options.freezeBoundary is \"true\"; accepted is true or false");
+    std::string deep;
+    for (int i = 0; i < 100; ++i) deep += "[";
+    EXPECT_NE(refusal_of(R"({"options": {"regions": )" + deep).message, "");
+    v1::ProgressiveEvent event;
+    const Status two = from_json(R"({"progress": {}, "error": {}})", event);
+    ASSERT_FALSE(two);
+    EXPECT_EQ(two.error().message, "error and progress exclude each other; accepted is one of them");
+    EXPECT_EQ(two.error().field, "error");
+}
+
+TEST(JsonTest, TakesWhatProto3JsonTakes) {
+    v1::ImproveRequest request;
+    for (const char* text :
+         {"{}", "{\"session\": null}", R"({"options": {"faces": "5", "tolerance": "0.5"}})", R"({"options": {"faces": 5.0}})",
+          R"({"options": {"faces": 5e2, "tolerance": "Infinity", "minStretch": "NaN"}})", R"({"options": {"mode": 1}})",
+          R"({"options": {"mode": "1", "regions": [], "markedEdges": [1, "2", 3.0]}})",
+          R"({"options": {"sizing": {"boxes": [{}, {"min": {"x": -1e308}}]}}})", R"({"options": null})"}) {
+        const Status read = from_json(text, request);
+        EXPECT_TRUE(read) << text << ": " << (read ? "" : read.error().message);
+    }
+    v1::CreateSessionRequest create;
+    EXPECT_TRUE(from_json(R"({"mesh": "YWJj"})", create));
+    EXPECT_TRUE(from_json(R"({"mesh": "YWI"})", create));
+    EXPECT_FALSE(from_json(R"({"mesh": "Y"})", create));
+    EXPECT_FALSE(from_json(R"({"mesh": "Y*=="})", create));
+}
+
+TEST(JsonTest, SaysHowMuchItWouldMakeBeforeItDoes) {
+    v1::ImproveRequest request;
+    const auto admit = [](const JsonSize& size) -> Status {
+        EXPECT_EQ(size.messages, 5U);
+        EXPECT_EQ(size.values, 3U);
+        return Error{Cause::kLimitExceeded, "no", ""};
+    };
+    const Status refused = from_json(R"({"options": {"faces": 7, "sizing": {"boxes": [{"size": 1}, {}]}}})", request,
+                                     UnknownFields::kRefused, admit);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().cause, Cause::kLimitExceeded);
+    EXPECT_FALSE(request.has_options()) << "nothing was made";
 }
 
 TEST(JsonTest, NamesTheFieldThatThereIsNot) {

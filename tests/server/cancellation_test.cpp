@@ -190,5 +190,26 @@ TEST_F(CancellationTest, ShutdownEndsWhatRuns) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, kSoon);
 }
 
+TEST_F(CancellationTest, WhatWaitsForAClientThatIsGoneIsNotComputed) {
+    const std::string id = large_session();
+    v1::GetQualityRequest quality;
+    quality.set_session(id);
+    v1::ListFeaturesRequest features;
+    features.set_session(id);
+    {
+        const BlockedErrands blocked(server_.service());
+        v1::Quality measured;
+        EXPECT_EQ(server_.stub().GetQuality(call(milliseconds(100)).get(), quality, &measured).error_code(),
+                  grpc::StatusCode::DEADLINE_EXCEEDED);
+        v1::ListFeaturesResponse listed;
+        EXPECT_EQ(server_.stub().ListFeatures(call(milliseconds(100)).get(), features, &listed).error_code(),
+                  grpc::StatusCode::DEADLINE_EXCEEDED);
+        EXPECT_EQ(ended("GetQuality CANCELLED") + ended("ListFeatures CANCELLED"), 0U);
+        std::this_thread::sleep_for(milliseconds(300));  // until the server has heard of it
+    }
+    EXPECT_TRUE(eventually([&] { return ended("GetQuality CANCELLED") + ended("ListFeatures CANCELLED") == 2; }, kSoon));
+    EXPECT_TRUE(get_quality(server_.stub(), id).status.ok());
+}
+
 }  // namespace
 }  // namespace vsplit::test

@@ -29,12 +29,30 @@ TEST(RequestFieldsTest, EnumsAndWellKnownTypes) {
     v1::DownloadMeshRequest download;
     EXPECT_TRUE(set_field(download, "format", "stl-ascii"));
     EXPECT_EQ(download.format(), v1::STL_ASCII);
+    download.clear_format();
     EXPECT_TRUE(set_field(download, "format", "3"));
     EXPECT_EQ(download.format(), v1::OBJ);
     v1::Representation representation;
     EXPECT_TRUE(set_field(representation, "elapsed", "1.5s"));
     EXPECT_EQ(representation.elapsed().seconds(), 1);
     EXPECT_FALSE(set_field(representation, "elapsed", "\"}"));
+}
+
+TEST(RequestFieldsTest, TwoValuesOfAFieldMustAgree) {
+    v1::ImproveRequest request;
+    const auto expect = [&](const char* name, const char* one, const char* other) {
+        EXPECT_TRUE(set_field(request, name, one)) << name;
+        EXPECT_TRUE(set_field(request, name, one)) << name << " twice the same";
+        const Status refused = set_field(request, name, other);
+        ASSERT_FALSE(refused) << name;
+        EXPECT_EQ(refused.error().field, name);
+        EXPECT_THAT(refused.error().message, ::testing::HasSubstr(other));
+    };
+    expect("session", "a", "b");
+    expect("options.faces", "8", "0");
+    expect("options.tolerance", "0.5", "0.25");
+    expect("options.mode", "strict", "extended");
+    expect("options.freezeBoundary", "true", "false");
 }
 
 TEST(RequestFieldsTest, SaysWhatIsWrongAndWhatWouldDo) {

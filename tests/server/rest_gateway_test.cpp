@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "rest_client.h"
 #include "test_client.h"
@@ -73,6 +75,32 @@ TEST_F(RestTest, CreatesWithAMeshInTheBodyOrNotAtAll) {
     EXPECT_TRUE(is_problem(ask("POST", "/v1/sessions", {}, "no mesh"), 415, "UNKNOWN_FORMAT"));
     EXPECT_TRUE(is_problem(ask("POST", "/v1/sessions?format=tiff", {}, "x"), 400, "INVALID_OPTION"));
     EXPECT_EQ(server_.grpc().service().load().sessions, 2U) << "what failed left none behind";
+}
+
+TEST_F(RestTest, ACreateWhoseClientLeavesLeavesNothing) {
+    const auto cancelled = [&] {
+        const std::vector<std::string> rpcs = server_.grpc().finished();
+        return std::count(rpcs.begin(), rpcs.end(), "UploadMesh CANCELLED");
+    };
+    for (const char* rest : {"Content-Length: 100000\r\n\r\nabc", "Transfer-Encoding: chunked\r\n\r\n3\r\nabc\r\n"}) {
+        const auto before = cancelled();
+        HttpClient client(server_.port());
+        client.send(std::string("POST /v1/sessions HTTP/1.1\r\nHost: t\r\nContent-Type: model/stl\r\n") + rest);
+        ASSERT_TRUE(eventually([&] { return server_.grpc().service().load().sessions == 1; }));
+        client.close();
+        EXPECT_TRUE(eventually([&] { return server_.grpc().service().load().sessions == 0; })) << rest;
+        EXPECT_TRUE(eventually([&] { return cancelled() > before; }));
+    }
+}
+
+// The rate lets the session and its upload in, and no third rpc for a while.
+TEST(RestRateTest, ACreateThatFailsLeavesNothingWhateverTheRate) {
+    guard::Gatekeeper gate(nullptr, 1);
+    rpc::GrpcExtras extras;
+    extras.gate = &gate;
+    RestFixture server(small_server(), {}, extras);
+    EXPECT_TRUE(is_problem(ask(server.port(), "POST", "/v1/sessions", {}, "no mesh"), 415, "UNKNOWN_FORMAT"));
+    EXPECT_TRUE(eventually([&] { return server.grpc().service().load().sessions == 0; }));
 }
 
 TEST_F(RestTest, UploadsWithALengthAndInChunks) {
@@ -209,6 +237,32 @@ TEST_F(RestTest, RangesAreGetsAndOfTheFileThatIsMeant) {
         EXPECT_EQ(head.fields.count("Content-Range"), 0U);
         EXPECT_EQ(head.fields.at("Content-Length"), std::to_string(whole.body.size()));
     }
+}
+
+TEST_F(RestTest, WhatNeedsNoBytesHasNoFileWritten) {
+    const std::string id = session_of(icosphere(4));
+    const std::string target = "/v1/sessions/" + id + "/mesh?format=ply";
+    const std::string other = "/v1/sessions/" + id + "/mesh?format=obj";
+    const HttpReply whole = ask("GET", target);
+    const std::string tag = whole.fields.at("ETag");
+    const BlockedErrands blocked(server_.grpc().service());
+    EXPECT_EQ(ask("GET", target, {{"If-None-Match", tag}}).status, 304U);
+    EXPECT_TRUE(is_problem(ask("GET", target, {{"If-Match", "\"other\""}}), 412, "INVALID_OPTION"));
+    EXPECT_TRUE(is_problem(ask("GET", target, {{"Range", "bytes=99999999-"}}), 416, "INVALID_OPTION"));
+    const HttpReply head = ask("HEAD", target);
+    EXPECT_EQ(head.status, 200U);
+    EXPECT_EQ(head.fields.at("ETag"), tag);
+    EXPECT_EQ(head.fields.at("Content-Length"), std::to_string(whole.body.size()));
+    EXPECT_EQ(head.fields.at("Content-Disposition"), whole.fields.at("Content-Disposition"));
+    const HttpReply unmade = ask("HEAD", other);
+    EXPECT_EQ(unmade.status, 200U);
+    EXPECT_EQ(unmade.fields.at("Content-Type"), "model/obj");
+    EXPECT_EQ(unmade.fields.count("Content-Length") + unmade.fields.count("ETag"), 0U) << "only the making tells";
+    EXPECT_EQ(ask("HEAD", "/v1/sessions/nobody/mesh").status, 404U);
+    EXPECT_TRUE(is_problem(ask("GET", other, {{"Accept", "text/html"}, {"Range", "bytes=0-9"}}), 406, "UNSUPPORTED"));
+    // What was written a moment ago is still there.
+    EXPECT_EQ(ask("GET", target, {{"Range", "bytes=10-19"}}).body, whole.body.substr(10, 10));
+    EXPECT_EQ(ask("GET", target).body, whole.body);
 }
 
 TEST_F(RestTest, ADownloadIsOfATypeThatTheClientTakes) {
@@ -376,12 +430,64 @@ TEST_F(RestTest, AFieldThatDoesNotTakeItsValueIsNamed) {
     }
 }
 
+TEST_F(RestTest, WhatARequestSaysOfAFieldMustAgree) {
+    const std::string id = session_of(cube());
+    const std::string session = "/v1/sessions/" + id;
+    const auto refused = [&](const HttpReply& reply, const std::string& field) {
+        EXPECT_TRUE(is_problem(reply, 400, "INVALID_OPTION"));
+        EXPECT_EQ(json_at(reply.body, "/field"), field);
+    };
+    refused(ask("GET", session + "?session=other"), "session");
+    refused(ask("GET", session + "/quality?session=other"), "session");
+    refused(ask("PUT", session + "/mesh?session=other", {}, file_of(cube())), "session");
+    refused(ask("POST", "/v1/sessions?session=other", {}, file_of(cube())), "session");
+    refused(ask("POST", session + ":improve", kJson, R"({"session": "other"})"), "session");
+    refused(ask("POST", session + ":improve?options.faces=8", kJson, R"({"options": {"faces": 9}})"), "options.faces");
+    refused(ask("GET", session + "/quality?worst=1&worst=2"), "worst");
+    EXPECT_EQ(ask("GET", session + "?session=" + id).status, 200U);
+    EXPECT_EQ(ask("POST", session + ":keepAlive", kJson, R"({"session": ")" + id + "\"}").status, 200U);
+    EXPECT_EQ(ask("GET", session + "/quality?worst=1&worst=1").status, 200U);
+}
+
+TEST_F(RestTest, AResolutionIsARepresentations) {
+    const std::string id = session_of(icosphere(3));
+    for (const char* target : {"/quality?faces=500", "/mesh?faces=500"}) {
+        const HttpReply reply = ask("GET", "/v1/sessions/" + id + target);
+        EXPECT_TRUE(is_problem(reply, 400, "INVALID_OPTION")) << target;
+        EXPECT_EQ(json_at(reply.body, "/field"), "faces");
+        EXPECT_THAT(json_at(reply.body, "/detail"), HasSubstr("together with the id of a representation"));
+    }
+    EXPECT_TRUE(failed_with(get_quality(server_.grpc().stub(), id, "", 500).status, Cause::kInvalidOption, "faces"));
+    EXPECT_TRUE(failed_with(download(server_.grpc().stub(), id, "", 500).status, Cause::kInvalidOption, "faces"));
+    v1::ImproveRequest request = small_improve(id);
+    request.mutable_source()->set_faces(500);
+    EXPECT_TRUE(failed_with(improve(server_.grpc().stub(), request).status, Cause::kInvalidOption, "faces"));
+}
+
+TEST_F(RestTest, JsonThatWouldTakeMuchMemoryIsRefusedBeforeItDoes) {
+    const std::string target = "/v1/sessions/" + session_of(cube()) + ":improve";
+    const auto list_of = [](const std::string& element, std::size_t count) {
+        std::string text = element;
+        for (std::size_t i = 1; i < count; ++i) text += ',' + element;
+        return text;
+    };
+    const std::string boxes = R"({"options": {"sizing": {"boxes": [)" + list_of("{}", 500'000) + "]}}}";
+    const HttpReply reply = ask("POST", target, kJson, boxes);
+    EXPECT_TRUE(is_problem(reply, 413, "LIMIT_EXCEEDED"));
+    EXPECT_THAT(json_at(reply.body, "/detail"), HasSubstr("500003 objects"));
+    EXPECT_THAT(json_at(reply.body, "/detail"), HasSubstr("limit json_memory is 134217728"));
+    const std::string ids = R"({"options": {"regions": [)" + list_of("0", 5'000'000) + "]}}";
+    EXPECT_TRUE(is_problem(ask("POST", target, kJson, ids), 413, "LIMIT_EXCEEDED"));
+    const std::string few = R"({"options": {"sizing": {"boxes": [)" + list_of("{}", 2'000) + "]}}}";
+    EXPECT_TRUE(is_problem(ask("POST", target, kJson, few), 400, "INVALID_OPTION")) << "the method's own limit";
+}
+
 TEST_F(RestTest, DeepAndHugeJsonIsRefused) {
     const std::string target = "/v1/sessions/" + session_of(cube()) + ":improve";
     EXPECT_TRUE(is_problem(ask("POST", target, kJson, std::string(100'000, '[')), 400, "MALFORMED_INPUT"));
     std::string deep;
     for (int i = 0; i < 20'000; ++i) deep += "{\"options\":";
-    EXPECT_TRUE(is_problem(ask("POST", target, kJson, deep), 400, "MALFORMED_INPUT"));
+    EXPECT_TRUE(is_problem(ask("POST", target, kJson, deep), 400, "INVALID_OPTION"));
     HttpClient client(server_.port());
     client.send("POST " + target +
                 " HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nContent-Length: 99999999999\r\n\r\n");
@@ -409,6 +515,15 @@ TEST_F(RestTest, PagesOfOtherOriginsAreRefusedUntilTheyAreAllowed) {
                                           {{"Origin", "https://elsewhere.example"}, {"Access-Control-Request-Method", "POST"}});
     EXPECT_EQ(preflight.status, 204U);
     EXPECT_THAT(preflight.fields.at("Access-Control-Allow-Methods"), HasSubstr("POST"));
+    for (const char* field :
+         {"Authorization", "Content-Type", "If-Match", "If-None-Match", "If-Range", "Range", "X-Request-Id", "traceparent"}) {
+        EXPECT_THAT(preflight.fields.at("Access-Control-Allow-Headers"), HasSubstr(field));
+    }
+    for (const char* field : {"Accept-Ranges", "Content-Disposition", "Content-Range", "ETag", "Retry-After", "WWW-Authenticate",
+                              "X-Request-Id", "traceparent"}) {
+        EXPECT_THAT(read.fields.at("Access-Control-Expose-Headers"), HasSubstr(field));
+    }
+    EXPECT_EQ(read.fields.count("X-Request-Id") + read.fields.count("traceparent"), 2U) << "and they are there";
     EXPECT_EQ(test::ask(open.port(), "GET", "/v1/sessions", {{"Origin", "https://third.example"}}).status, 403U);
 }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -86,6 +88,50 @@ TEST_F(ServerOptionsTest, RefusesUnknownKeysAndWrongValuesWhereverTheyCome) {
     EXPECT_TRUE(refused({"--config", file_ + ".none"}));
     EXPECT_TRUE(refused({}, {{"VSPLITD_MAX_SESSIONS", "many"}}));
     EXPECT_TRUE(refused({"--max-sesions", "3"}));
+}
+
+// What strtod and strtoull would take: no number, no decimal, more than there is room for.
+TEST_F(ServerOptionsTest, RefusesWhatIsNoNumberOfItsRangeWhereverItComes) {
+    struct Wrong {
+        const char* option;
+        std::vector<const char*> values;
+        const char* accepted;
+    };
+    const std::vector<const char*> fractions{"nan", "-nan", "inf", "-inf", "-1", "1e400", "1e10", "0x10", "many"};
+    const std::vector<const char*> wholes{"nan", "inf", "-1", "1.5", "1e3", "0x10", "99999999999999999999999", "many"};
+    for (const Wrong& wrong : {
+             Wrong{"max-request-rate", fractions, "a number from 0 to 1e+09"},
+             Wrong{"slow-job", fractions, "a number from 0 to 1e+09"},
+             Wrong{"max-sessions", wholes, "a whole number from 1 to 4294967295"},
+             Wrong{"max-waiting", wholes, "a whole number from 0 to 4294967295"},
+             Wrong{"max-upload-bytes", wholes, "a whole number from 1 to 18446744073709551615"},
+             Wrong{"max-memory-bytes", wholes, "a whole number from 0 to 18446744073709551615"},
+             Wrong{"max-disk-bytes", wholes, "a whole number from 0 to 18446744073709551615"},
+             Wrong{"max-connections", wholes, "a whole number from 1 to 18446744073709551615"},
+             Wrong{"max-message-bytes", wholes, "a whole number from 65536 to 1073741824"},
+             Wrong{"session-ttl", wholes, "a whole number from 1 to 3162240000"},
+             Wrong{"drain", wholes, "a whole number from 0 to 86400"},
+         }) {
+        for (const std::string value : wrong.values) {
+            const std::string option = wrong.option;
+            std::string variable = "VSPLITD_" + option;
+            std::replace(variable.begin(), variable.end(), '-', '_');
+            std::transform(variable.begin(), variable.end(), variable.begin(), [](unsigned char c) { return std::toupper(c); });
+            const auto told = [&] {
+                return errors_.find("--" + option) != std::string::npos && errors_.find(wrong.accepted) != std::string::npos;
+            };
+            EXPECT_TRUE(refused({"--" + option + '=' + value}) && told()) << option << ' ' << value << ": " << errors_;
+            EXPECT_TRUE(refused({}, {{variable, value}}) && told()) << variable << ' ' << value << ": " << errors_;
+            write(option + " = " + value + '\n');
+            EXPECT_TRUE(refused({"--config", file_}) && told()) << "file: " << option << ' ' << value << ": " << errors_;
+        }
+    }
+    EXPECT_EQ(options({"--max-request-rate", "2.5"}).max_request_rate, 2.5);
+    EXPECT_EQ(options({"--max-upload-bytes=18446744073709551615"}).service.limits.upload_bytes, 18446744073709551615U);
+}
+
+TEST_F(ServerOptionsTest, AnEmptyVariableIsNone) {
+    EXPECT_EQ(options({"--drain", "7"}, {{"VSPLITD_DATA_DIR", ""}, {"VSPLITD_MAX_SESSIONS", ""}}).data_dir, "");
 }
 
 TEST_F(ServerOptionsTest, PrintsWhatHoldsAsAFileThatSaysTheSame) {

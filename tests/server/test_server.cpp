@@ -1,7 +1,12 @@
 #include "test_server.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <iostream>
+#include <thread>
 #include <utility>
 
 #include "wire/error_table.h"
@@ -44,6 +49,19 @@ void TestServer::note(const rpc::RpcRecord& record) {
     const std::string outcome = record.status.ok() ? "OK" : std::string(cause_name(wire::from_status(record.status).cause));
     const std::lock_guard lock(mutex_);
     finished_.push_back(std::string(record.method) + ' ' + outcome);
+}
+
+BlockedErrands::BlockedErrands(service::MeshingService& service) {
+    const unsigned threads = std::max(2U, std::thread::hardware_concurrency());
+    const std::shared_future<void> opened = open_.get_future().share();
+    const auto running = std::make_shared<std::atomic<unsigned>>(0);
+    for (unsigned i = 0; i < threads; ++i) {
+        EXPECT_TRUE(service.errand([opened, running] {
+            ++*running;
+            opened.wait();
+        }));
+    }
+    while (*running < threads) std::this_thread::yield();
 }
 
 }  // namespace vsplit::test

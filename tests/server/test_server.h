@@ -2,6 +2,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <future>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -39,6 +40,18 @@ private:
     service::MeshingService service_;
     std::unique_ptr<rpc::GrpcServer> server_;
     std::unique_ptr<v1::Meshing::Stub> stub_;
+};
+
+/// While it lives no errand of a reader begins: no file is written, no level rebuilt, no quality measured.
+class BlockedErrands {
+public:
+    explicit BlockedErrands(service::MeshingService& service);
+    ~BlockedErrands() { open_.set_value(); }
+    BlockedErrands(const BlockedErrands&) = delete;
+    BlockedErrands& operator=(const BlockedErrands&) = delete;
+
+private:
+    std::promise<void> open_;
 };
 
 }  // namespace vsplit::test

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/number_text.h"
 #include "mesh/drop_unused.h"
 #include "mesh/exact_merger.h"
 #include "mesh/merge_vertices.h"
@@ -49,7 +50,7 @@ std::vector<std::uint32_t> merge_vertices(std::vector<Vec3>& positions, double t
 Expected<WeldCounts> weld(TriangleMesh& mesh, double tolerance) {
     if (!(tolerance >= 0) || std::isinf(tolerance)) {
         return Error{Cause::kInvalidOption,
-                     "weld tolerance is " + std::to_string(tolerance) + "; a finite length of 0 or more is needed", "weld"};
+                     "weld tolerance is " + number_text(tolerance) + "; a finite length of 0 or more is needed", "weld"};
     }
     const std::size_t before = mesh.positions.size();
     const std::vector<std::uint32_t> numbers = merge_vertices(mesh.positions, tolerance);

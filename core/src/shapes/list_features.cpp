@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/number_text.h"
 #include "shapes/cylinder.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/shapes/shape_features.h"
@@ -205,7 +206,7 @@ std::string_view shape_feature_name(ShapeFeature::Kind kind) {
 Expected<std::vector<ShapeFeature>> list_features(const TriangleMesh& mesh, const FeatureSearch& search) {
     if (!(search.angle > 0 && search.angle < 180)) {
         return Error{Cause::kInvalidOption,
-                     "angle is " + std::to_string(search.angle) + "; accepted are degrees over 0 and under 180", "angle"};
+                     "angle is " + number_text(search.angle) + "; accepted are degrees over 0 and under 180", "angle"};
     }
     if (Status closed = require_closed_manifold(inspect(mesh)); !closed) return closed.error();
     return Recogniser(mesh, search.angle).run();

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "base/number_text.h"
 #include "mesh/drop_unused.h"
 #include "shapes/improve_patch.h"
 #include "shapes/rims.h"
@@ -28,8 +29,7 @@ Expected<std::vector<std::uint32_t>> chosen(const std::vector<ShapeFeature>& fea
         return Error{Cause::kInvalidOption, "neither ids nor a diameter are given; one of them says which features go", "ids"};
     if (removal.max_diameter && !(*removal.max_diameter > 0)) {
         return Error{Cause::kInvalidOption,
-                     "max_diameter is " + std::to_string(*removal.max_diameter) + "; accepted are lengths over 0",
-                     "max_diameter"};
+                     "max_diameter is " + number_text(*removal.max_diameter) + "; accepted are lengths over 0", "max_diameter"};
     }
     std::set<std::uint32_t> ids;
     for (const std::uint32_t id : removal.ids) {

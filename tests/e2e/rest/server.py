@@ -44,6 +44,11 @@ class Server:
         with open(f"/proc/{self.process.pid}/status", encoding="ascii") as status:
             return int(re.search(r"RssAnon:\s+(\d+)", status.read())[1]) * 1024
 
+    def peak_memory(self):
+        """The most bytes that it had at a time, of files and of its own."""
+        with open(f"/proc/{self.process.pid}/status", encoding="ascii") as status:
+            return int(re.search(r"VmHWM:\s+(\d+)", status.read())[1]) * 1024
+
     def metric(self, name):
         """What /metrics says of one without labels."""
         for line in self.ask("GET", "/metrics")[1].decode().splitlines():

@@ -57,7 +57,7 @@ export async function deleteSession(id: string): Promise<void> {
 export function getQuality(session: string, representation: string, faces: number, worst: number): Promise<Quality> {
   const query = new URLSearchParams({ worst: String(worst) });
   if (representation) query.set("representation", representation);
-  if (faces > 0) query.set("faces", String(faces));
+  if (representation && faces > 0) query.set("faces", String(faces));
   return get(QualitySchema, `/v1/sessions/${session}/quality?${query}`);
 }
 
