@@ -1,6 +1,8 @@
 // vsplitd and a browser that looks at its page, for tests and measurements. Node finds playwright-core among the page's packages.
 import { spawn } from "node:child_process";
 import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 
 const { chromium } = createRequire(new URL("../../../client/web/package.json", import.meta.url))("playwright-core");
 
@@ -34,6 +36,23 @@ export async function openPage(address, size = { width: 1440, height: 860 }) {
   await page.goto(address);
   await page.waitForSelector("#improve button[type=submit]");
   return { browser, page, said, asked };
+}
+
+/** Runs steps one after the other until one fails; then the page is left as a picture, and this process fails. `given` goes to each. */
+export async function runSteps(steps, given) {
+  const { page, said } = given;
+  try {
+    for (const [name, step] of Object.entries(steps)) {
+      const begun = performance.now();
+      await step(given);
+      console.log(`ok: ${name} (${Math.round(performance.now() - begun)} ms)`);
+    }
+  } catch (error) {
+    const picture = join(tmpdir(), "vsplit-page-failed.png");
+    await page.screenshot({ path: picture }).catch(() => undefined);
+    console.error(`${error.stack}\nthe page said: ${said.join("\n")}\nand looked like ${picture}`);
+    process.exitCode = 1;
+  }
 }
 
 /** What the page shows and names in its address. */

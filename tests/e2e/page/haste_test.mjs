@@ -1,7 +1,7 @@
 // haste_test.mjs VSPLITD DATA: whoever does the next thing before the last one is done gets what was asked for last, and no complaint.
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { openPage, run, settled, shownOn, slide, startServer, upload } from "./browser.mjs";
+import { openPage, run, runSteps, settled, shownOn, slide, startServer, upload } from "./browser.mjs";
 import { startProxy } from "./stalling_proxy.mjs";
 
 const [vsplitd, data] = process.argv.slice(2);
@@ -107,17 +107,7 @@ const steps = {
 const server = await startServer(vsplitd);
 const proxy = await startProxy(server.address);
 const opened = await openPage(proxy.address);
-try {
-  for (const [name, step] of Object.entries(steps)) {
-    const begun = performance.now();
-    await step({ ...opened, address: server.address, proxy });
-    console.log(`ok: ${name} (${Math.round(performance.now() - begun)} ms)`);
-  }
-} catch (error) {
-  console.error(`${error.stack}\nthe page said: ${opened.said.join("\n")}`);
-  process.exitCode = 1;
-} finally {
-  await opened.browser.close();
-  proxy.stop();
-  await server.stop();
-}
+await runSteps(steps, { ...opened, address: server.address, proxy });
+await opened.browser.close();
+proxy.stop();
+await server.stop();

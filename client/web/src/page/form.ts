@@ -19,7 +19,9 @@ export class MethodForm {
     const folded = rows.filter((_, n) => !first.includes(options[n]!.path[0]!));
     this.run = element("button", { type: "submit", "aria-disabled": "true" }, verb);
     form.noValidate = true;
-    form.append(...shown, element("details", {}, element("summary", {}, "More options"), ...folded), this.run);
+    const defaults = element("button", { type: "reset", class: "quiet", "aria-label": `Defaults of ${verb}` }, "Defaults");
+    form.append(...shown, element("details", {}, element("summary", {}, "More options"), ...folded), element("div", { class: "row" }, this.run, defaults));
+    form.addEventListener("reset", () => setTimeout(() => this.wasReset()));
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       if (this.enabled && this.check()) start(this.options());
@@ -34,6 +36,13 @@ export class MethodForm {
       if (options[name] !== undefined) field.value = options[name];
     }
     this.suggested = options;
+  }
+
+  /** Everything is as it was at first: what suits the mesh is set again. */
+  private wasReset(): void {
+    this.blame(undefined);
+    this.suggest(this.suggested);
+    this.form.dispatchEvent(new Event("input", { bubbles: true }));
   }
 
   /** The button that runs the method keeps the focus when it cannot be pressed for a while. */

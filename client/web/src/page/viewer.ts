@@ -75,7 +75,7 @@ export class Viewer {
 
   /** To a point of a mesh, from outside of its surface, so near that `size` is well seen. */
   fly(slot: Slot, point: Point, size: number): void {
-    if (this.view !== "both" && this.view !== slot) this.show(slot);
+    if (!this.sees(slot)) this.show(slot);
     const target = new Vector3(...point);
     if (this.cutPlane.distanceToPoint(target) < 0) this.uncut();
     const away = this.camera.position.clone().sub(this.controls.target).normalize();
@@ -108,6 +108,11 @@ export class Viewer {
     this.shown(view);
     this.place.dataset["view"] = view;
     this.resize();
+  }
+
+  /** Whether it can be seen now. */
+  sees(slot: Slot): boolean {
+    return this.view === "both" || this.view === slot;
   }
 
   showEdges(shown: boolean): void {
