@@ -379,7 +379,7 @@ const steps = {
     // Of the bracket's forced slivers the sample's note speaks.
     for (const [name, slivers] of [["scan.ply", 0], ["bracket.stl", 6]]) {
       await takeSample(page, name);
-      for (const verb of ["improve", "control"]) await page.click(`#${verb} button[type=reset]`);
+      for (const verb of ["improve", "control"]) await page.click(`#${verb} button:text("Defaults")`);
       // A reload knows still what suits it.
       await page.reload();
       await page.waitForFunction(() => document.getElementById("canvas").dataset.source);

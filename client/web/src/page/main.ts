@@ -24,9 +24,12 @@ const bench: Workbench = new Workbench(
     update();
     if (problem?.field) started?.blame(problem.field);
   },
-  (session, name) => {
+  (session, unit, name) => {
     const sample = samples.find((one) => one.name === name);
-    for (const form of forms) form.suggest(sample?.options ?? {});
+    for (const form of forms) {
+      form.suggest(sample?.options ?? {});
+      form.unit = unit;
+    }
     find("sample-note").textContent = sample?.note ?? "";
     fields.open(session);
   },

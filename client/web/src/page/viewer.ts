@@ -12,9 +12,18 @@ const step = 0.08;
 // Colours go to the screen as the legend shows them.
 ColorManagement.enabled = false;
 
+function makeRenderer(): WebGLRenderer | undefined {
+  try {
+    return new WebGLRenderer({ antialias: true });
+  } catch {
+    return undefined;
+  }
+}
+
 /** Input and result, side by side or one of them, with one camera for both. Draws when something has changed. */
 export class Viewer {
-  private readonly renderer = new WebGLRenderer({ antialias: true });
+  /** None where the browser has no WebGL. */
+  private readonly renderer = makeRenderer();
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(35, 1, 0.01, 1000);
   private readonly controls: OrbitControls;
@@ -26,6 +35,7 @@ export class Viewer {
   shown: (view: View) => void = () => undefined;
   /** Called where the cut hides what is flown to. */
   uncut: () => void = () => undefined;
+  private readonly ground = new Color();
   private half = new Vector3(1, 1, 1);
   private view: View = "both";
   private asked = false;
@@ -35,19 +45,15 @@ export class Viewer {
   constructor(private readonly place: HTMLElement) {
     const material = faceMaterial(this.cutPlane, this.edges);
     this.faces = { source: new Faces(material), result: new Faces(material) };
-    this.renderer.outputColorSpace = LinearSRGBColorSpace;
-    this.renderer.localClippingEnabled = true;
-    this.renderer.sortObjects = false;
-    this.renderer.autoClear = false;
     this.marker.visible = false;
     const light = new DirectionalLight(0xffffff, 2.2);
     light.position.set(0.4, 0.7, 1);
     this.camera.add(light);
     this.scene.add(new AmbientLight(0xffffff, 1.1), this.camera, this.faces.source.mesh, this.faces.result.mesh, this.marker);
-    place.append(this.renderer.domElement);
     place.dataset["view"] = this.view;
-    this.renderer.domElement.setAttribute("aria-hidden", "true");
-    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    if (this.renderer) this.start(this.renderer);
+    else this.undrawn("This browser draws no WebGL, or it is switched off: meshes are not drawn. All else works.");
+    this.controls = new OrbitControls(this.camera, this.renderer?.domElement ?? place);
     this.controls.addEventListener("change", () => this.ask());
     this.controls.addEventListener("start", () => (this.moved = true));
     place.addEventListener("keydown", (event) => this.key(event));
@@ -60,6 +66,28 @@ export class Viewer {
     this.half = new Vector3(...half);
     this.uncut();
     this.fit();
+  }
+
+  private start(renderer: WebGLRenderer): void {
+    renderer.outputColorSpace = LinearSRGBColorSpace;
+    renderer.localClippingEnabled = true;
+    renderer.sortObjects = false;
+    renderer.autoClear = false;
+    const canvas = renderer.domElement;
+    canvas.setAttribute("aria-hidden", "true");
+    // The browser may take the graphics card away; three.js fills its buffers anew when it is back.
+    canvas.addEventListener("webglcontextlost", () => this.undrawn("The graphics card was taken away; the picture comes back with it."));
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.undrawn("");
+      renderer.setClearColor(this.ground);
+      this.ask();
+    });
+    this.place.append(canvas);
+  }
+
+  /** Says why nothing is drawn; "" where it is. */
+  private undrawn(why: string): void {
+    this.place.querySelector(".undrawn")!.textContent = why;
   }
 
   fit(): void {
@@ -88,6 +116,8 @@ export class Viewer {
     this.marker.visible = true;
     this.moved = true;
     this.camera.near = Math.min(radius / 500, size / 10 + radius * 1e-6);
+    // On a narrow page the list that leads here may be far from the picture.
+    this.place.scrollIntoView({ block: "nearest" });
     this.aim(target, away.multiplyScalar(Math.max(12 * size, radius * 0.002)));
   }
 
@@ -128,8 +158,8 @@ export class Viewer {
   }
 
   background(colour: string): void {
-    this.scene.background = null;
-    this.renderer.setClearColor(new Color(colour));
+    this.ground.set(colour);
+    this.renderer?.setClearColor(this.ground);
     this.ask();
   }
 
@@ -184,8 +214,8 @@ export class Viewer {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.place;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.setSize(width, height);
+    this.renderer?.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer?.setSize(width, height);
     this.camera.aspect = (this.view === "both" ? width / 2 : width) / height;
     this.camera.updateProjectionMatrix();
     if (this.moved) this.ask();
@@ -193,16 +223,18 @@ export class Viewer {
   }
 
   private draw(): void {
+    const { renderer } = this;
+    if (!renderer) return;
     const { clientWidth: width, clientHeight: height } = this.place;
     const shown: Slot[] = this.view === "both" ? ["source", "result"] : [this.view];
-    this.renderer.setScissorTest(true);
+    renderer.setScissorTest(true);
     shown.forEach((slot, n) => {
       const left = Math.floor((n * width) / shown.length), across = Math.ceil(width / shown.length);
-      this.renderer.setViewport(left, 0, across, height);
-      this.renderer.setScissor(left, 0, across, height);
-      this.renderer.clear();
+      renderer.setViewport(left, 0, across, height);
+      renderer.setScissor(left, 0, across, height);
+      renderer.clear();
       for (const other of ["source", "result"] as const) this.faces[other].mesh.visible = other === slot && this.place.dataset[other] !== undefined;
-      this.renderer.render(this.scene, this.camera);
+      renderer.render(this.scene, this.camera);
     });
   }
 }

@@ -70,11 +70,11 @@ export class Workbench {
   private readonly progress = new ProgressBar(workPlace(), () => runButton(this.verb), () => this.result.tell({ kind: "cancel" }));
   private readonly slider = new ResolutionSlider((faces) => this.order({ kind: "faces", faces }));
 
-  /** `changed`: when methods can be run or not. `opened`: when a session is, with the name of the sample that it has. */
+  /** `changed`: when methods can be run or not. `opened`: when a session is, with its unit of length and the name of the sample that it has. */
   constructor(
     private readonly viewer: Viewer,
     private readonly changed: (problem?: ProblemText) => void,
-    private readonly opened: (session: string, sample: string | undefined) => void,
+    private readonly opened: (session: string, unit: string, sample: string | undefined) => void,
   ) {}
 
   /** Whether a method can be run. */
@@ -220,7 +220,7 @@ export class Workbench {
     this.writePlace();
     find("summary").textContent = summaryOf(session.source, this.unit);
     this.showNotes();
-    this.opened(session.id, sample);
+    this.opened(session.id, this.unit, sample);
     this.changed();
   }
 
