@@ -24,6 +24,12 @@ const nothingOpen = "No mesh yet";
 const verbNames: Record<Verb, string> = { improve: "Improve", control: "Control" };
 const runButton = (verb: Verb): HTMLElement => find(verb).querySelector<HTMLElement>("button[type=submit]")!;
 
+/** In the browser's timeline, once: the last time counts, and a page that stays open for days gathers nothing. */
+function mark(name: string): void {
+  performance.clearMarks(name);
+  performance.mark(name);
+}
+
 /** For measurements: what the last change of resolution took. */
 function stepText(patch: Patch): string {
   return `${patch.records} records, ${patch.positions.length / 9} faces, ${patch.milliseconds.toFixed(1)} ms`;
@@ -187,6 +193,7 @@ export class Workbench {
     this.alive.end();
     delete this.figures.source;
     delete this.figures.result;
+    this.load(false);
     this.colouring.clear();
     this.viewer.clear("source");
     this.viewer.clear("result");
@@ -215,6 +222,7 @@ export class Workbench {
       low.map((v, axis) => (v + high[axis]!) / 2) as unknown as Point,
       low.map((v, axis) => (high[axis]! - v) / 2) as unknown as Point,
     );
+    this.load(true);
     this.source.tell({ kind: "source", path: meshPath(session.id, "", 0, "PLY"), centre: this.centre });
     this.recolour();
     this.writePlace();
@@ -222,6 +230,11 @@ export class Workbench {
     this.showNotes();
     this.opened(session.id, this.unit, sample);
     this.changed();
+  }
+
+  /** The input is on its way, or no more. */
+  private load(is: boolean): void {
+    find("canvas").toggleAttribute("data-loading", is);
   }
 
   /** The box around what is open: its middle, and half its edges. */
@@ -300,6 +313,7 @@ export class Workbench {
         this.colouring.take(slot, news.patch);
         if (slot === "source") {
           this.viewer.apply(slot, news.patch);
+          this.load(false);
         } else {
           this.draw(news.patch);
           this.faces = news.patch.visible;
@@ -315,7 +329,7 @@ export class Workbench {
         if (slot === "result" && this.made) this.writePlace(this.faces);
         return;
       case "progress":
-        performance.mark("vsplit method ended"); // unless another comes
+        mark("vsplit method ended"); // unless another comes
         this.fresh = true;
         return this.progress.show(news.stage, news.fraction, news.faces);
       case "place":
@@ -326,6 +340,7 @@ export class Workbench {
       case "problem":
         // A method that the end of a server cut off is asked for anew after a reload.
         if (slot === "result" && news.problem.cause !== "UNAVAILABLE") this.ended();
+        if (slot === "source") this.load(false);
         return this.tell(news.problem);
       case "idle":
         if (slot === "source" || this.result.busy) return;
@@ -365,12 +380,13 @@ export class Workbench {
   private draw(patch: Patch): void {
     const begun = performance.now();
     this.viewer.apply("result", patch);
+    performance.clearMeasures("vsplit copied");
     performance.measure("vsplit copied", { start: begun });
     const first = this.fresh;
     this.fresh = false;
     void this.viewer.afterDraw().then(() => {
-      if (first) performance.mark("vsplit drawn first");
-      performance.mark("vsplit drawn");
+      if (first) mark("vsplit drawn first");
+      mark("vsplit drawn");
     });
   }
 
