@@ -4,7 +4,8 @@ import type { Element, Point, WorstFace } from "../shared/protocol";
 import { count, element, figure } from "./dom";
 import type { Asked } from "./kept";
 
-export type Fly = (place: Point, size: number) => void;
+/** `size`: of what is to be seen there, where it is known. */
+export type Fly = (place: Point, size?: number) => void;
 
 /** Buttons a note has at most. */
 const mostPlaces = 40;
@@ -32,11 +33,11 @@ function placeButtons(names: string[], go: (n: number) => void): HTMLElement {
   return places;
 }
 
-/** What was found, with its places. `size`: of what is around a place, where nothing tells. */
-export function findingList(findings: Finding[], size: number, fly: Fly): HTMLElement[] {
+/** What was found, with its places. */
+export function findingList(findings: Finding[], fly: Fly): HTMLElement[] {
   return findings.map((finding) => {
     const names = finding.places.map((_, n) => `${finding.kind}, place ${n + 1}`);
-    const places = placeButtons(names, (n) => fly(pointOf(finding.places[n]), size));
+    const places = placeButtons(names, (n) => fly(pointOf(finding.places[n])));
     return element("div", { class: "note" }, element("strong", {}, `${finding.kind.toLowerCase().replace(/_/g, " ")} × ${count(finding.count)}`), element("p", {}, finding.message), places);
   });
 }

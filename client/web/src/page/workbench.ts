@@ -63,7 +63,6 @@ export class Workbench {
   /** The resolution that the method was asked for: what it said is of that. */
   private at = 0;
   private centre: Point = [0, 0, 0];
-  private diagonal = 1;
   private readonly figures: Partial<Record<Slot, Figures>> = {};
   private fresh = false;
   private verb: Verb = "improve";
@@ -240,7 +239,6 @@ export class Workbench {
   /** The box around what is open: its middle, and half its edges. */
   private surround(centre: Point, half: Point): void {
     this.centre = centre;
-    this.diagonal = 2 * Math.hypot(...half);
     this.viewer.frame(half);
   }
 
@@ -406,7 +404,7 @@ export class Workbench {
     else this.order({ kind: "locate", faces: this.at, element });
   }
 
-  private fly(slot: Slot, place: Point, size: number): void {
+  private fly(slot: Slot, place: Point, size?: number): void {
     find("canvas").dataset["flown"] = place.join(" ");
     this.viewer.fly(slot, place.map((v, axis) => v - this.centre[axis]!) as unknown as Point, size);
   }
@@ -427,7 +425,7 @@ export class Workbench {
         this.showNotes();
       }),
       ...(made ? resultNotes(made, this.at, (element) => this.locate(element)) : []),
-      ...findingList(session?.source?.findings ?? [], this.diagonal / 100, (place, size) => this.fly("source", place, size)),
+      ...findingList(session?.source?.findings ?? [], (place) => this.fly("source", place)),
     ];
     refill(find("notes"), ...(notes.length > 0 ? notes : [session || made ? "Nothing to report." : "–"]));
   }
