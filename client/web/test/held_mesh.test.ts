@@ -6,14 +6,13 @@ import { Ramp } from "../src/shared/colours";
 import { measure } from "../src/worker/figures";
 import { Painter } from "../src/worker/painter";
 import { isSeen } from "../src/worker/surface";
-import type { RecordBlock } from "../src/gen/vsplit/v1/meshing_pb";
 
 const golden = (name: string) => readGolden(readFileSync(new URL(`../../../tests/data/golden/${name}`, import.meta.url), "utf8"));
 
 function load(name: string): HeldMesh {
   const { base, grid, blocks } = golden(name);
   const held = new HeldMesh(base, grid);
-  for (const { block } of blocks) held.take(block as unknown as RecordBlock);
+  for (const { block } of blocks) held.take(block);
   return held;
 }
 

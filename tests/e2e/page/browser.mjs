@@ -1,12 +1,15 @@
 // vsplitd and a browser that looks at its page, for tests and measurements. Node finds playwright-core among the page's packages.
 import { spawn } from "node:child_process";
 import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 
 const { chromium } = createRequire(new URL("../../../client/web/package.json", import.meta.url))("playwright-core");
 
-/** Starts vsplitd on free ports; `stop` ends it and fails where it does not end well. */
+/** Starts vsplitd on free ports, or at the one for HTTP that `options` name; `stop` ends it and fails where it does not end well. */
 export async function startServer(vsplitd, ...options) {
-  const child = spawn(vsplitd, ["--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--log-level", "error", ...options], { stdio: ["ignore", "pipe", "inherit"] });
+  const http = options.includes("--http") ? [] : ["--http", "127.0.0.1:0"];
+  const child = spawn(vsplitd, ["--listen", "127.0.0.1:0", ...http, "--log-level", "error", ...options], { stdio: ["ignore", "pipe", "inherit"] });
   const line = await new Promise((resolve, reject) => {
     child.stdout.once("data", (data) => resolve(String(data)));
     child.once("exit", (status) => reject(new Error(`vsplitd ended with ${status}`)));
@@ -18,14 +21,16 @@ export async function startServer(vsplitd, ...options) {
       child.once("exit", (status) => (status === 0 ? resolve() : reject(new Error(`vsplitd ended with ${status}`))));
       child.kill("SIGTERM");
     });
-  return { address, stop };
+  const kill = () => new Promise((resolve) => child.removeAllListeners("exit").once("exit", resolve).kill("SIGKILL"));
+  return { address, stop, kill };
 }
 
 /** A page in Debian's Chromium, drawn by software. `said`: what its console and errors told. */
-export async function openPage(address, size = { width: 1440, height: 860 }) {
-  const args = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+export async function openPage(address, size = { width: 1440, height: 860 }, ...more) {
+  const args = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", ...more];
   const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args });
-  const page = await browser.newPage({ viewport: size });
+  const context = await browser.newContext({ viewport: size });
+  const page = await context.newPage();
   const said = [];
   const asked = [];
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && said.push(message.text()));
@@ -33,7 +38,24 @@ export async function openPage(address, size = { width: 1440, height: 860 }) {
   page.on("request", (request) => asked.push(request.url()));
   await page.goto(address);
   await page.waitForSelector("#improve button[type=submit]");
-  return { browser, page, said, asked };
+  return { browser, context, page, said, asked };
+}
+
+/** Runs steps one after the other until one fails; then the page is left as a picture, and this process fails. `given` goes to each. */
+export async function runSteps(steps, given) {
+  const { page, said } = given;
+  try {
+    for (const [name, step] of Object.entries(steps)) {
+      const begun = performance.now();
+      await step(given);
+      console.log(`ok: ${name} (${Math.round(performance.now() - begun)} ms)`);
+    }
+  } catch (error) {
+    const picture = join(tmpdir(), "vsplit-page-failed.png");
+    await page.screenshot({ path: picture }).catch(() => undefined);
+    console.error(`${error.stack}\nthe page said: ${said.join("\n")}\nand looked like ${picture}`);
+    process.exitCode = 1;
+  }
 }
 
 /** What the page shows and names in its address. */
@@ -73,6 +95,14 @@ export async function upload(page, file) {
   const before = await sessionIn(page);
   await page.setInputFiles("#file", file);
   await opened(page, before);
+}
+
+/** Drops files and folders from the disk on the page, as from another window. */
+export async function drop(page, ...paths) {
+  const browser = await page.context().newCDPSession(page);
+  const data = { items: [], files: paths, dragOperationsMask: 1 };
+  for (const type of ["dragEnter", "dragOver", "drop"]) await browser.send("Input.dispatchDragEvent", { type, x: 100, y: 100, data });
+  await browser.detach();
 }
 
 /** Takes a sample by a double click. */

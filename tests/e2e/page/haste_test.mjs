@@ -1,7 +1,7 @@
 // haste_test.mjs VSPLITD DATA: whoever does the next thing before the last one is done gets what was asked for last, and no complaint.
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { openPage, run, settled, shownOn, slide, startServer, upload } from "./browser.mjs";
+import { openPage, run, runSteps, settled, shownOn, slide, startServer, upload } from "./browser.mjs";
 import { startProxy } from "./stalling_proxy.mjs";
 
 const [vsplitd, data] = process.argv.slice(2);
@@ -49,12 +49,14 @@ const steps = {
   },
 
   async "steps of the slider that are overtaken while they wait are not drawn"({ page, address }) {
-    const drawn = () => page.evaluate(() => performance.getEntriesByName("vsplit copied").length);
-    const before = await drawn();
+    await page.evaluate(() => {
+      window.drawn = 0;
+      new PerformanceObserver((list) => (window.drawn += list.getEntriesByName("vsplit copied").length)).observe({ entryTypes: ["measure"] });
+    });
     const shares = Array.from({ length: 60 }, (_, n) => 1 - n / 100);
     await drag(page, shares);
     await settled(page);
-    const steps = (await drawn()) - before;
+    const steps = await page.evaluate(() => window.drawn);
     assert.ok(steps > 0 && steps <= 10, `${steps} of ${shares.length} steps were drawn`);
     const { session, representation, result } = await shownOn(page);
     const { representations } = await (await fetch(`${address}/v1/sessions/${session}`)).json();
@@ -107,17 +109,7 @@ const steps = {
 const server = await startServer(vsplitd);
 const proxy = await startProxy(server.address);
 const opened = await openPage(proxy.address);
-try {
-  for (const [name, step] of Object.entries(steps)) {
-    const begun = performance.now();
-    await step({ ...opened, address: server.address, proxy });
-    console.log(`ok: ${name} (${Math.round(performance.now() - begun)} ms)`);
-  }
-} catch (error) {
-  console.error(`${error.stack}\nthe page said: ${opened.said.join("\n")}`);
-  process.exitCode = 1;
-} finally {
-  await opened.browser.close();
-  proxy.stop();
-  await server.stop();
-}
+await runSteps(steps, { ...opened, address: server.address, proxy });
+await opened.browser.close();
+proxy.stop();
+await server.stop();

@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { openPage, run, settled, shownOn, slide, startServer, takeSample, upload } from "./browser.mjs";
+import { openPage, run, runSteps, settled, shownOn, slide, startServer, takeSample, upload } from "./browser.mjs";
 
 const [vsplitd, vsplit, data] = process.argv.slice(2);
 const place = mkdtempSync(join(tmpdir(), "vsplit-page-"));
@@ -330,8 +330,15 @@ const steps = {
     assert.equal(await status(before.session), 200);
     await name("nothing");
     await page.waitForSelector("#problems p");
-    assert.match(await page.textContent("#problems"), /^NOT_FOUND/);
-    assert.ok(await page.isEnabled("#improve button[type=submit]"));
+    assert.match(await page.textContent("#problems"), /^NOT_FOUND no session "nothing"/);
+    // Nothing of the session before is left to be taken for this one.
+    assert.equal(await page.getAttribute("#improve button[type=submit]", "aria-disabled"), "true");
+    assert.equal(await page.getAttribute("#download", "aria-disabled"), "true");
+    assert.deepEqual(await page.$eval("#canvas", ({ dataset }) => [dataset.source, dataset.result]), [undefined, undefined]);
+    assert.match(await page.textContent("#part"), /Session nothing is not open/);
+    assert.ok(await page.isDisabled("#faces"));
+    for (const id of ["summary", "legend"]) assert.equal(await page.textContent(`#${id}`), "");
+    assert.doesNotMatch(await page.textContent("#figures"), /\d{3}/);
     await page.goBack();
     await page.goBack();
     await page.waitForFunction((faces) => Number(document.getElementById("canvas").dataset.result) === faces, before.result);
@@ -372,6 +379,7 @@ const steps = {
     // Of the bracket's forced slivers the sample's note speaks.
     for (const [name, slivers] of [["scan.ply", 0], ["bracket.stl", 6]]) {
       await takeSample(page, name);
+      for (const verb of ["improve", "control"]) await page.click(`#${verb} button:text("Defaults")`);
       // A reload knows still what suits it.
       await page.reload();
       await page.waitForFunction(() => document.getElementById("canvas").dataset.source);
@@ -444,18 +452,7 @@ const steps = {
 
 const server = await startServer(vsplitd);
 const opened = await openPage(server.address);
-try {
-  for (const [name, step] of Object.entries(steps)) {
-    const begun = performance.now();
-    await step({ ...opened, address: server.address });
-    console.log(`ok: ${name} (${Math.round(performance.now() - begun)} ms)`);
-  }
-} catch (error) {
-  await opened.page.screenshot({ path: join(tmpdir(), "vsplit-page-failed.png") });
-  console.error(`${error.stack}\nthe page said: ${opened.said.join("\n")}\nand looked like ${join(tmpdir(), "vsplit-page-failed.png")}`);
-  process.exitCode = 1;
-} finally {
-  await opened.browser.close();
-  await server.stop();
-  rmSync(place, { recursive: true });
-}
+await runSteps(steps, { ...opened, address: server.address });
+await opened.browser.close();
+await server.stop();
+rmSync(place, { recursive: true });

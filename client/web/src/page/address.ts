@@ -8,7 +8,11 @@ export interface Place {
   sample?: string;
 }
 
+/** The address as it was read or written last. */
+let known = location.hash;
+
 export function readPlace(): Place {
+  known = location.hash;
   const said = new URLSearchParams(location.hash.slice(1));
   return {
     session: said.get("session") ?? undefined,
@@ -19,8 +23,11 @@ export function readPlace(): Place {
   };
 }
 
+/** Does nothing where the address was changed otherwise, and nobody has read it since. */
 export function writePlace(place: Place): void {
+  if (location.hash !== known) return;
   const said = new URLSearchParams();
   for (const [name, value] of Object.entries(place)) if (value !== undefined) said.set(name, String(value));
   history.replaceState(null, "", said.size > 0 ? `#${said}` : location.pathname);
+  known = location.hash;
 }

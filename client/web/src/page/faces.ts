@@ -1,5 +1,6 @@
-import { BufferAttribute, BufferGeometry, Mesh, Vector3, type Material } from "three";
+import { BufferAttribute, BufferGeometry, Mesh, type Material } from "three";
 import type { Patch } from "../shared/protocol";
+import type { Drawn } from "./vantage";
 
 const room = 1.3;
 
@@ -14,6 +15,7 @@ export class Faces {
     this.mesh = new Mesh(new BufferGeometry(), material);
     this.mesh.frustumCulled = false;
     this.mesh.visible = false;
+    this.mesh.geometry.setDrawRange(0, 0);
   }
 
   apply(patch: Patch): void {
@@ -36,24 +38,8 @@ export class Faces {
     this.visible = patch.visible;
   }
 
-  /** The normal of the face whose middle is nearest to a point: where to look at it from. O(faces). */
-  normalAt(point: Vector3): Vector3 | undefined {
-    const p = this.positions.array, end = 3 * this.mesh.geometry.drawRange.count;
-    let best = -1, least = Infinity;
-    for (let at = 0; at < end; at += 9) {
-      const x = (p[at]! + p[at + 3]! + p[at + 6]!) / 3 - point.x;
-      const y = (p[at + 1]! + p[at + 4]! + p[at + 7]!) / 3 - point.y;
-      const z = (p[at + 2]! + p[at + 5]! + p[at + 8]!) / 3 - point.z;
-      const square = x * x + y * y + z * z;
-      if (square < least) {
-        least = square;
-        best = at;
-      }
-    }
-    if (best < 0) return undefined;
-    const [a, b, c] = [0, 3, 6].map((corner) => new Vector3(p[best + corner], p[best + corner + 1], p[best + corner + 2])) as [Vector3, Vector3, Vector3];
-    const normal = b.sub(a).cross(c.sub(a));
-    return normal.lengthSq() > 0 ? normal.normalize() : undefined;
+  get drawn(): Drawn {
+    return { positions: this.positions.array as Float32Array, floats: 3 * this.mesh.geometry.drawRange.count };
   }
 
   /** Buffers of another size are other buffers: what was in them comes along. */

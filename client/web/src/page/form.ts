@@ -1,6 +1,6 @@
 import { element } from "./dom";
 import { check, clear, pointAt } from "./number_field";
-import { labelOf, type Option } from "./schema";
+import { labelOf, modelUnits, type Option } from "./schema";
 
 /** Options that most people set; the others are folded away. */
 const first = ["subdivisionSize", "tolerance", "maxDeviation", "faces", "subdivisions", "minStretch", "maxSize", "maxValence"];
@@ -11,6 +11,8 @@ type Field = HTMLInputElement | HTMLSelectElement;
 export class MethodForm {
   private readonly fields: { option: Option; field: Field }[] = [];
   private readonly run: HTMLButtonElement;
+  /** Where the unit of a length stands. */
+  private readonly lengths: HTMLElement[] = [];
   private suggested: Readonly<Record<string, string>> = {};
 
   constructor(private readonly form: HTMLFormElement, verb: string, options: Option[], start: (body: object) => void) {
@@ -19,7 +21,8 @@ export class MethodForm {
     const folded = rows.filter((_, n) => !first.includes(options[n]!.path[0]!));
     this.run = element("button", { type: "submit", "aria-disabled": "true" }, verb);
     form.noValidate = true;
-    form.append(...shown, element("details", {}, element("summary", {}, "More options"), ...folded), this.run);
+    const defaults = element("button", { type: "button", class: "quiet", "aria-label": `Defaults of ${verb}`, click: () => this.reset() }, "Defaults");
+    form.append(...shown, element("details", {}, element("summary", {}, "More options"), ...folded), element("div", { class: "row" }, this.run, defaults));
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       if (this.enabled && this.check()) start(this.options());
@@ -34,6 +37,19 @@ export class MethodForm {
       if (options[name] !== undefined) field.value = options[name];
     }
     this.suggested = options;
+  }
+
+  /** Everything as it was at first, and what suits the mesh. */
+  private reset(): void {
+    this.form.reset();
+    this.blame(undefined);
+    this.suggest(this.suggested);
+    this.form.dispatchEvent(new Event("input", { bubbles: true }));
+  }
+
+  /** Of lengths; "" where it is not known. */
+  set unit(symbol: string) {
+    for (const place of this.lengths) place.textContent = symbol || modelUnits;
   }
 
   /** The button that runs the method keeps the focus when it cannot be pressed for a while. */
@@ -64,8 +80,13 @@ export class MethodForm {
       help.hidden = !help.hidden;
       tell.setAttribute("aria-expanded", String(!help.hidden));
     });
-    const unit = option.unit ? element("span", { class: "unit" }, option.unit) : undefined;
-    return element("div", { class: "field" }, element("label", { for: id }, labelOf(option.path), unit), field, tell, help);
+    const label = element("label", { for: id }, labelOf(option.path));
+    if (option.unit) {
+      const unit = element("span", { class: "unit" }, option.unit);
+      label.append(" ", unit);
+      if (option.unit === modelUnits) this.lengths.push(unit);
+    }
+    return element("div", { class: "field" }, label, field, tell, help);
   }
 
   private fieldOf(option: Option, id: string): Field {

@@ -1,8 +1,11 @@
-import type { FaceQuality, Finding, Representation, Vector } from "../gen/vsplit/v1/meshing_pb";
-import type { Element, Point } from "../shared/protocol";
+import { toJson } from "@bufbuild/protobuf";
+import { InterruptedMethodSchema, Method, type Finding, type InterruptedMethod, type Representation, type Vector } from "../gen/vsplit/v1/meshing_pb";
+import type { Element, Point, WorstFace } from "../shared/protocol";
 import { count, element, figure } from "./dom";
+import type { Asked } from "./kept";
 
-export type Fly = (place: Point, size: number) => void;
+/** `size`: of what is to be seen there, where it is known. */
+export type Fly = (place: Point, size?: number) => void;
 
 /** Buttons a note has at most. */
 const mostPlaces = 40;
@@ -10,12 +13,12 @@ const mostPlaces = 40;
 const pointOf = (v: Vector | undefined): Point => [v?.x ?? 0, v?.y ?? 0, v?.z ?? 0];
 
 /** The worst faces, each a button that flies there. */
-export function worstList(faces: FaceQuality[], fly: Fly): HTMLElement {
+export function worstList(faces: WorstFace[], fly: Fly): HTMLElement {
   if (faces.length === 0) return element("p", { class: "hint" }, "Nothing yet.");
   const list = element("ol", { class: "places" });
   for (const face of faces) {
     const go = element("button", { type: "button" }, `face ${count(face.face)}: stretch ${face.stretch.toFixed(3)}, size ${figure(face.size, 3)}`);
-    go.addEventListener("click", () => fly(pointOf(face.centroid), face.size));
+    go.addEventListener("click", () => fly(face.place, face.size));
     list.append(element("li", {}, go));
   }
   return list;
@@ -30,11 +33,11 @@ function placeButtons(names: string[], go: (n: number) => void): HTMLElement {
   return places;
 }
 
-/** What was found, with its places. `size`: of what is around a place, where nothing tells. */
-export function findingList(findings: Finding[], size: number, fly: Fly): HTMLElement[] {
+/** What was found, with its places. */
+export function findingList(findings: Finding[], fly: Fly): HTMLElement[] {
   return findings.map((finding) => {
     const names = finding.places.map((_, n) => `${finding.kind}, place ${n + 1}`);
-    const places = placeButtons(names, (n) => fly(pointOf(finding.places[n]), size));
+    const places = placeButtons(names, (n) => fly(pointOf(finding.places[n])));
     return element("div", { class: "note" }, element("strong", {}, `${finding.kind.toLowerCase().replace(/_/g, " ")} × ${count(finding.count)}`), element("p", {}, finding.message), places);
   });
 }
@@ -62,4 +65,19 @@ export function resultNotes(made: Representation, faces: number, go: (element: E
   const slivers = made.slivers.map((s) => elementNote(s.cause.toLowerCase().replace(/_/g, " "), s.message, "face", s.elements, s.count, go));
   const notes = [...broken, ...slivers];
   return notes.length > 0 ? [element("p", { class: "hint" }, `The result, at ${count(faces)} faces:`), ...notes] : [];
+}
+
+/** What was cut off, as it is to be asked for anew. */
+export function askedOf(method: InterruptedMethod): Asked {
+  const { source, improveOptions, controlOptions } = toJson(InterruptedMethodSchema, method) as Record<string, object>;
+  return { verb: method.method === Method.CONTROL ? "control" : "improve", body: { source, options: improveOptions ?? controlOptions } };
+}
+
+/** Methods that the end of the server cut off, each with a button that asks for it anew. */
+export function interruptedNotes(methods: InterruptedMethod[], ask: (method: InterruptedMethod) => void): HTMLElement[] {
+  return methods.map((method) => {
+    const name = method.method === Method.CONTROL ? "Control" : "Improve";
+    const button = element("button", { type: "button", class: "quiet", click: () => ask(method) }, `Run ${name} again`);
+    return element("div", { class: "note bad" }, element("strong", {}, `${name} was cut off`), element("p", {}, "The server ended while it ran; nothing of it is kept but what was asked for."), button);
+  });
 }

@@ -1,13 +1,12 @@
 import type { ColourBy } from "../shared/colours";
-import { Problem, problemOf, problemText } from "../shared/problem";
+import { problemOf, problemText } from "../shared/problem";
 import { readPlace } from "./address";
-import { upload } from "./api";
 import { element, find, passFocus } from "./dom";
 import { fetchFile } from "./download";
 import { MethodForm } from "./form";
-import { check, clear, pointAt } from "./number_field";
+import { Incoming } from "./incoming";
+import { KeptFields } from "./kept_fields";
 import { hideProblem, showProblem, startProblems } from "./problems";
-import { ProgressBar } from "./progress";
 import { samples } from "./samples";
 import { formatLabel, formatsOf, methodOptions, type Contract } from "./schema";
 import { startTheme } from "./theme";
@@ -17,111 +16,34 @@ import { Workbench } from "./workbench";
 
 const viewer = new Viewer(find("canvas"));
 const forms: MethodForm[] = [];
+const fields = new KeptFields(find("steps"));
 let started: MethodForm | undefined;
-const bench = new Workbench(
+const bench: Workbench = new Workbench(
   viewer,
-  (ready, problem) => {
-    for (const form of forms) form.enabled = ready && sending === undefined;
+  (problem) => {
+    update();
     if (problem?.field) started?.blame(problem.field);
-    updateDownload();
   },
-  (name) => {
+  (session, unit, name) => {
     const sample = samples.find((one) => one.name === name);
-    for (const form of forms) form.suggest(sample?.options ?? {});
+    for (const form of forms) {
+      form.suggest(sample?.options ?? {});
+      form.unit = unit;
+    }
     find("sample-note").textContent = sample?.note ?? "";
+    fields.open(session);
   },
 );
+const incoming: Incoming = new Incoming(bench, () => update());
 
-function updateDownload(): void {
+/** What can be done now. */
+function update(): void {
+  for (const form of forms) form.enabled = bench.ready && !incoming.busy;
   const link = find<HTMLAnchorElement>("download");
   const path = bench.file(find<HTMLSelectElement>("format").value);
   link.setAttribute("aria-disabled", String(path === undefined));
   if (path) link.href = path;
-}
-
-let sending: AbortController | undefined;
-
-function giveUpSending(): void {
-  sending?.abort();
-  sending = undefined;
-}
-
-function enableForms(): void {
-  for (const form of forms) form.enabled = bench.ready && sending === undefined;
-}
-
-/** Uploads a mesh; one that is still on its way gives way to it. */
-async function send(get: (signal: AbortSignal) => Promise<Blob>, name: string, sample?: string): Promise<void> {
-  const weld = find<HTMLInputElement>("weld");
-  clear(weld);
-  if (!check(weld, "Weld")) return;
-  hideProblem();
-  giveUpSending();
-  const stop = (sending = new AbortController());
-  enableForms();
-  const progress = new ProgressBar(find("upload"), () => find("file"), () => stop.abort());
-  progress.show("upload", 0);
-  try {
-    const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(weld.value), unit: find<HTMLSelectElement>("unit").value };
-    const session = await upload(await get(stop.signal), options, (share) => progress.show(share < 1 ? "upload" : "inspect", share), stop.signal);
-    if (sending === stop) bench.replace(session, name, sample);
-  } catch (error) {
-    if (sending !== stop) return;
-    const problem = problemText(error);
-    showProblem(problem);
-    if (problem.field === "weld") pointAt(weld);
-  } finally {
-    progress.hide();
-    if (sending === stop) sending = undefined;
-    enableForms();
-  }
-}
-
-async function fetchSample(name: string, signal: AbortSignal): Promise<Blob> {
-  const response = await fetch(`samples/${name}`, { signal });
-  if (!response.ok) throw new Problem({ cause: "NOT_FOUND", detail: `the server has no sample ${name}` });
-  return response.blob();
-}
-
-function startSamples(): void {
-  let coming: string | undefined;
-  for (const { name } of samples) {
-    const button = element("button", { type: "button", class: "quiet" }, name);
-    button.addEventListener("click", (event) => {
-      // Two clicks in a row ask once.
-      if (event.detail > 1 || coming === name) return;
-      coming = name;
-      void send((signal) => fetchSample(name, signal), name, name).finally(() => {
-        if (coming === name) coming = undefined;
-      });
-    });
-    find("samples").append(button);
-  }
-}
-
-function startUpload(): void {
-  const input = find<HTMLInputElement>("file");
-  const take = (files: FileList | null | undefined): void => {
-    const file = files?.[0];
-    if (file) void send(() => Promise.resolve(file), file.name);
-  };
-  input.addEventListener("change", () => {
-    take(input.files);
-    input.value = "";
-  });
-  const body = document.body;
-  body.addEventListener("dragover", (event) => {
-    event.preventDefault();
-    body.classList.add("dragging");
-  });
-  body.addEventListener("dragleave", (event) => {
-    if (event.relatedTarget === null) body.classList.remove("dragging");
-  });
-  body.addEventListener("drop", (event) => {
-    event.preventDefault();
-    body.classList.remove("dragging");
-    take(event.dataTransfer?.files);
-  });
+  else link.removeAttribute("href");
 }
 
 function startTools(): void {
@@ -164,8 +86,8 @@ async function startForms(): Promise<void> {
   }
   const format = find<HTMLSelectElement>("format");
   for (const name of formatsOf(contract)) format.append(element("option", { value: name }, formatLabel(name)));
-  format.addEventListener("change", updateDownload);
-  enableForms();
+  format.addEventListener("change", update);
+  update();
   find("download").addEventListener("click", (event) => {
     const path = bench.file(format.value);
     event.preventDefault();
@@ -174,28 +96,28 @@ async function startForms(): Promise<void> {
 }
 
 function reopen(): void {
-  giveUpSending();
+  incoming.giveUp();
   bench
     .reopen()
     .catch((error: unknown) => showProblem(problemText(error)))
-    .finally(enableForms);
+    .finally(update);
 }
 
 startToken(() => {
   hideProblem();
-  reopen();
+  if (readPlace().session) reopen();
 });
 startTheme((background) => viewer.background(background));
 addEventListener("hashchange", () => {
-  const place = readPlace();
-  if (!place.session || bench.isAt(place)) return;
+  if (bench.isAt(readPlace())) return;
   hideProblem();
   reopen();
 });
 startProblems();
-startUpload();
-startSamples();
 startTools();
 startForms()
-  .then(reopen)
+  .then(() => {
+    if (!readPlace().session) fields.open("");
+    reopen();
+  })
   .catch((error: unknown) => showProblem(problemText(error)));

@@ -2,6 +2,7 @@ import { count, element, find, passFocus } from "./dom";
 
 const stages: Record<string, string> = {
   upload: "Uploading",
+  read: "Reading the file",
   queued: "Waiting for its turn",
   inspect: "Inspecting",
   subdivide: "Subdividing",
@@ -15,6 +16,8 @@ export class ProgressBar {
   private readonly bar = element("progress", { max: 1, value: 0, "aria-label": "Progress" });
   private readonly words = element("span");
   private readonly box: HTMLElement;
+  /** Of what it is the progress. */
+  title = "";
 
   constructor(private readonly place: HTMLElement, private readonly next: () => HTMLElement, cancel: () => void) {
     const button = element("button", { type: "button", class: "quiet" }, "Cancel");
@@ -23,7 +26,7 @@ export class ProgressBar {
   }
 
   show(stage: string, fraction: number, faces = 0): void {
-    this.words.textContent = (stages[stage] ?? stage) + (faces > 0 ? `, ${count(faces)} faces` : "");
+    this.words.textContent = this.title + (stages[stage] ?? stage) + (faces > 0 ? `, ${count(faces)} faces` : "");
     this.bar.value = fraction;
     if (!this.box.isConnected) this.place.append(this.box);
   }

@@ -29,7 +29,7 @@ export function qualityTable({ source, result, deviation, unit }: Columns): HTML
   const distance = element("td", {}, deviation === undefined ? "–" : withUnit(figure(deviation), unit));
   body.append(element("tr", {}, element("th", { scope: "row" }, "Deviation, max"), element("td", {}, "–"), distance));
   const head = element("tr", {}, element("td"), element("th", { scope: "col" }, "Input"), element("th", { scope: "col" }, "Result"));
-  return element("table", {}, element("thead", {}, head), body);
+  return element("table", { "aria-labelledby": "quality-title" }, element("thead", {}, head), body);
 }
 
 const spreads: [string, keyof Figures["spread"]][] = [

@@ -7,11 +7,14 @@ export interface Option {
   help: string;
   /** What is taken where nothing is said, in the contract's words. */
   standard: string;
-  /** "°", "units" (of the model), or nothing. */
+  /** "°", modelUnits, or nothing. */
   unit: string;
   /** Bounds of a whole number's type. */
   bounds: readonly [least: number, most: number];
 }
+
+/** Of a length whose mesh does not say it. */
+export const modelUnits = "units";
 
 interface Schema {
   type?: string;
@@ -31,7 +34,7 @@ const lengths = /(size|tolerance|deviation|error|field)$/i;
 
 function unitOf(name: string, description: string): string {
   if (/degrees/i.test(description) || /angle$/i.test(name)) return "°";
-  return lengths.test(name) ? "units" : "";
+  return lengths.test(name) ? modelUnits : "";
 }
 
 function standardOf(description: string): string {

@@ -1,8 +1,10 @@
-import { AmbientLight, Color, ColorManagement, DirectionalLight, LinearSRGBColorSpace, Mesh, MeshBasicMaterial, PerspectiveCamera, Plane, Scene, SphereGeometry, Vector3, WebGLRenderer } from "three";
+import { AmbientLight, Color, ColorManagement, DirectionalLight, LinearSRGBColorSpace, PerspectiveCamera, Plane, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Patch, Point } from "../shared/protocol";
 import { Faces } from "./faces";
+import { Marker } from "./marker";
 import { faceMaterial } from "./material";
+import { sizeAt, vantage } from "./vantage";
 
 export type Slot = "source" | "result";
 export type View = Slot | "both";
@@ -12,20 +14,33 @@ const step = 0.08;
 // Colours go to the screen as the legend shows them.
 ColorManagement.enabled = false;
 
+function makeRenderer(): WebGLRenderer | undefined {
+  try {
+    return new WebGLRenderer({ antialias: true });
+  } catch {
+    return undefined;
+  }
+}
+
 /** Input and result, side by side or one of them, with one camera for both. Draws when something has changed. */
 export class Viewer {
-  private readonly renderer = new WebGLRenderer({ antialias: true });
+  /** None where the browser has no WebGL. */
+  private readonly renderer = makeRenderer();
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(35, 1, 0.01, 1000);
   private readonly controls: OrbitControls;
   private readonly cutPlane = new Plane(new Vector3(1, 0, 0), Number.MAX_VALUE);
   private readonly edges = { value: 1 };
   private readonly faces: Record<Slot, Faces>;
-  private readonly marker = new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ color: 0xff00c8, depthTest: false, transparent: true, opacity: 0.85 }));
+  private readonly marker = new Marker(this.scene);
+  /** How far in front of the place that is looked at everything is cut away; nothing where it is free. */
+  private cutaway = Infinity;
+  private near = 0.01;
   /** Told which view it is now. */
   shown: (view: View) => void = () => undefined;
   /** Called where the cut hides what is flown to. */
   uncut: () => void = () => undefined;
+  private readonly ground = new Color();
   private half = new Vector3(1, 1, 1);
   private view: View = "both";
   private asked = false;
@@ -35,24 +50,18 @@ export class Viewer {
   constructor(private readonly place: HTMLElement) {
     const material = faceMaterial(this.cutPlane, this.edges);
     this.faces = { source: new Faces(material), result: new Faces(material) };
-    this.renderer.outputColorSpace = LinearSRGBColorSpace;
-    this.renderer.localClippingEnabled = true;
-    this.renderer.sortObjects = false;
-    this.renderer.autoClear = false;
-    this.marker.visible = false;
     const light = new DirectionalLight(0xffffff, 2.2);
     light.position.set(0.4, 0.7, 1);
     this.camera.add(light);
-    this.scene.add(new AmbientLight(0xffffff, 1.1), this.camera, this.faces.source.mesh, this.faces.result.mesh, this.marker);
-    place.append(this.renderer.domElement);
-    place.dataset["view"] = this.view;
-    this.renderer.domElement.setAttribute("aria-hidden", "true");
-    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.scene.add(new AmbientLight(0xffffff, 1.1), this.camera, this.faces.source.mesh, this.faces.result.mesh);
+    if (this.renderer) this.start(this.renderer);
+    else this.undrawn("This browser draws no WebGL, or it is switched off: meshes are not drawn. All else works.");
+    this.controls = new OrbitControls(this.camera, this.renderer?.domElement ?? place);
     this.controls.addEventListener("change", () => this.ask());
     this.controls.addEventListener("start", () => (this.moved = true));
     place.addEventListener("keydown", (event) => this.key(event));
     new ResizeObserver(() => this.resize()).observe(place);
-    this.resize();
+    this.arrange();
   }
 
   /** Half the edges of the box around the part, which lies around the origin. */
@@ -62,10 +71,33 @@ export class Viewer {
     this.fit();
   }
 
+  private start(renderer: WebGLRenderer): void {
+    renderer.outputColorSpace = LinearSRGBColorSpace;
+    renderer.localClippingEnabled = true;
+    renderer.sortObjects = false;
+    renderer.autoClear = false;
+    const canvas = renderer.domElement;
+    canvas.setAttribute("aria-hidden", "true");
+    // The browser may take the graphics card away; three.js fills its buffers anew when it is back.
+    canvas.addEventListener("webglcontextlost", () => this.undrawn("The graphics card was taken away; the picture comes back with it."));
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.undrawn("");
+      renderer.setClearColor(this.ground);
+      this.ask();
+    });
+    this.place.append(canvas);
+  }
+
+  /** Says why nothing is drawn; "" where it is. */
+  private undrawn(why: string): void {
+    this.place.querySelector(".undrawn")!.textContent = why;
+  }
+
   fit(): void {
     const radius = Math.max(this.half.length(), 1e-9);
-    this.camera.near = radius / 500;
+    this.near = radius / 500;
     this.camera.far = radius * 50;
+    this.cutaway = Infinity;
     this.marker.visible = false;
     this.moved = false;
     const up = (this.camera.fov * Math.PI) / 360;
@@ -73,41 +105,59 @@ export class Viewer {
     this.aim(new Vector3(), new Vector3(0.55, 0.4, 1).normalize().multiplyScalar((radius * 1.02) / Math.sin(narrower)));
   }
 
-  /** To a point of a mesh, from outside of its surface, so near that `size` is well seen. */
-  fly(slot: Slot, point: Point, size: number): void {
-    if (this.view !== "both" && this.view !== slot) this.show(slot);
+  /** To a point of a mesh, so near that `size` is well seen: that of the faces there, where it is not said. What hides it is cut away. */
+  fly(slot: Slot, point: Point, size?: number): void {
+    if (!this.sees(slot)) this.show(slot);
     const target = new Vector3(...point);
     if (this.cutPlane.distanceToPoint(target) < 0) this.uncut();
-    const away = this.camera.position.clone().sub(this.controls.target).normalize();
-    const normal = this.faces[slot].normalAt(target);
-    // Not quite along the normal: from there a surface looks flat.
-    if (normal) away.multiplyScalar(0.45).addScaledVector(normal, away.dot(normal) < -0.9 ? 2 : 1).normalize();
+    const { drawn } = this.faces[slot];
     const radius = Math.max(this.half.length(), 1e-9);
-    this.marker.position.copy(target);
-    this.marker.scale.setScalar(Math.max(size, radius * 1e-4) * 0.12);
-    this.marker.visible = true;
+    const seen = size ?? Math.min(Math.max(sizeAt(drawn, target, radius / 50) ?? 0, radius / 200), radius / 20);
+    // Of a large face what is around it is mostly the part.
+    const distance = Math.max(Math.min(12 * seen, Math.max(3 * seen, radius)), radius * 0.002);
+    const now = this.camera.position.clone().sub(this.controls.target).normalize();
+    const { away, free } = vantage(drawn, target, distance / 10, distance, now);
+    this.cutaway = free ? Infinity : distance / 10;
+    this.marker.put(target);
     this.moved = true;
-    this.camera.near = Math.min(radius / 500, size / 10 + radius * 1e-6);
-    this.aim(target, away.multiplyScalar(Math.max(12 * size, radius * 0.002)));
+    this.near = Math.min(radius / 500, distance / 120 + radius * 1e-6);
+    // On a narrow page the list that leads here may be far from the picture.
+    this.place.scrollIntoView({ block: "nearest" });
+    this.aim(target, away.multiplyScalar(distance));
   }
 
   apply(slot: Slot, patch: Patch): void {
     this.faces[slot].apply(patch);
     this.place.dataset[slot] = String(patch.visible);
+    this.arrange();
     this.ask();
   }
 
   clear(slot: Slot): void {
     this.faces[slot].mesh.visible = false;
     delete this.place.dataset[slot];
+    this.arrange();
     this.ask();
   }
 
   show(view: View): void {
     this.view = view;
     this.shown(view);
-    this.place.dataset["view"] = view;
+    this.arrange();
+  }
+
+  /** Side by side takes two: before there is a result, the input has all the room. */
+  private arrange(): void {
+    const { dataset } = this.place;
+    const view = this.view === "both" && dataset["result"] === undefined ? "source" : this.view;
+    if (dataset["view"] === view) return;
+    dataset["view"] = view;
     this.resize();
+  }
+
+  /** Whether it can be seen now. */
+  sees(slot: Slot): boolean {
+    return this.view === "both" || this.view === slot;
   }
 
   showEdges(shown: boolean): void {
@@ -123,8 +173,8 @@ export class Viewer {
   }
 
   background(colour: string): void {
-    this.scene.background = null;
-    this.renderer.setClearColor(new Color(colour));
+    this.ground.set(colour);
+    this.renderer?.setClearColor(this.ground);
     this.ask();
   }
 
@@ -179,25 +229,38 @@ export class Viewer {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.place;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.setSize(width, height);
-    this.camera.aspect = (this.view === "both" ? width / 2 : width) / height;
+    this.renderer?.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer?.setSize(width, height);
+    this.camera.aspect = (this.place.dataset["view"] === "both" ? width / 2 : width) / height;
     this.camera.updateProjectionMatrix();
     if (this.moved) this.ask();
     else this.fit();
   }
 
+  /** Nothing nearer than the cutaway is drawn, wherever the eye has gone since. */
+  private cutAway(): void {
+    const near = Math.max(this.near, this.camera.position.distanceTo(this.controls.target) - this.cutaway);
+    if (near === this.camera.near) return;
+    this.camera.near = near;
+    this.camera.updateProjectionMatrix();
+  }
+
   private draw(): void {
+    const { renderer } = this;
+    if (!renderer) return;
     const { clientWidth: width, clientHeight: height } = this.place;
-    const shown: Slot[] = this.view === "both" ? ["source", "result"] : [this.view];
-    this.renderer.setScissorTest(true);
+    const view = this.place.dataset["view"] as View;
+    const shown: Slot[] = view === "both" ? ["source", "result"] : [view];
+    this.marker.face(this.camera, height);
+    this.cutAway();
+    renderer.setScissorTest(true);
     shown.forEach((slot, n) => {
       const left = Math.floor((n * width) / shown.length), across = Math.ceil(width / shown.length);
-      this.renderer.setViewport(left, 0, across, height);
-      this.renderer.setScissor(left, 0, across, height);
-      this.renderer.clear();
+      renderer.setViewport(left, 0, across, height);
+      renderer.setScissor(left, 0, across, height);
+      renderer.clear();
       for (const other of ["source", "result"] as const) this.faces[other].mesh.visible = other === slot && this.place.dataset[other] !== undefined;
-      this.renderer.render(this.scene, this.camera);
+      renderer.render(this.scene, this.camera);
     });
   }
 }

@@ -1,39 +1,61 @@
-import { fromJson, type JsonValue } from "@bufbuild/protobuf";
+import { create, fromJson, type JsonValue } from "@bufbuild/protobuf";
 import { RepresentationSchema, type Representation, type Session } from "../gen/vsplit/v1/meshing_pb";
 import type { ColourBy } from "../shared/colours";
-import { Problem, problemText } from "../shared/problem";
+import { Problem } from "../shared/problem";
 import type { Element, Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
 import { symbolOf } from "../shared/units";
 import { readPlace, writePlace, type Place } from "./address";
-import { deleteSession, getQuality, getSession, meshPath } from "./api";
+import { deleteSession, getSession, meshPath } from "./api";
 import { Colouring } from "./colouring";
-import { count, find, refill } from "./dom";
+import { find, refill } from "./dom";
+import { forget, keep, keptOf, type Asked, type Verb } from "./kept";
 import { KeepAlive } from "./keep_alive";
 import { legend } from "./legend";
-import { findingList, resultNotes, worstList } from "./lists";
+import { askedOf, findingList, interruptedNotes, resultNotes, worstList } from "./lists";
 import { MeshWorker } from "./mesh_worker";
 import { showProblem } from "./problems";
 import { ProgressBar, workPlace } from "./progress";
 import { qualityTable, spreadTable, stretchHistogram } from "./quality_panel";
 import { ResolutionSlider } from "./resolution";
+import { fileSummary, summaryOf } from "./summary";
 import type { Slot, View, Viewer } from "./viewer";
 
-const worstFaces = 20;
-
-export type Verb = "improve" | "control";
+const nothingOpen = "No mesh yet";
+const verbNames: Record<Verb, string> = { improve: "Improve", control: "Control" };
 const runButton = (verb: Verb): HTMLElement => find(verb).querySelector<HTMLElement>("button[type=submit]")!;
+
+/** In the browser's timeline, once: the last time counts, and a page that stays open for days gathers nothing. */
+function mark(name: string): void {
+  performance.clearMarks(name);
+  performance.mark(name);
+}
 
 /** For measurements: what the last change of resolution took. */
 function stepText(patch: Patch): string {
   return `${patch.records} records, ${patch.positions.length / 9} faces, ${patch.milliseconds.toFixed(1)} ms`;
 }
 
-/** The session that is open: its two meshes, what is known of them, and what is shown. */
+type FileNews = Extract<News, { kind: "file" }>;
+
+/** What a file says of itself, as far as it can be read, at the levels that it has. */
+function representationIn({ json, faces, facesMin, facesMax }: FileNews): Representation {
+  let said: Representation;
+  try {
+    said = fromJson(RepresentationSchema, json as JsonValue, { ignoreUnknownFields: true });
+  } catch {
+    said = create(RepresentationSchema);
+  }
+  return Object.assign(said, { faces, facesMin, facesMax });
+}
+
+/** What is open, a session or a .vsplit file: its two meshes, what is known of them, and what is shown. */
 export class Workbench {
   private session: Session | undefined;
+  /** Whether the server has it no more. */
+  private lost = false;
   /** Ids of sessions whose mesh was uploaded in this tab since it was loaded. */
   private readonly uploaded = new Set<string>();
-  private readonly alive = new KeepAlive((problem) => this.changed(this.ready, problemText(problem)));
+  private readonly alive = new KeepAlive((problem) => this.tell(problem));
   private name = "";
   private sample: string | undefined;
   private made: Representation | undefined;
@@ -41,27 +63,28 @@ export class Workbench {
   /** The resolution that the method was asked for: what it said is of that. */
   private at = 0;
   private centre: Point = [0, 0, 0];
-  private diagonal = 1;
   private readonly figures: Partial<Record<Slot, Figures>> = {};
   private fresh = false;
   private verb: Verb = "improve";
   private running = false;
+  /** What was cut off by a reload, and is asked for anew when what the address names is there. */
+  private again: Asked | undefined;
   private readonly colouring = new Colouring(() => this.recolour());
   private source = this.worker("source");
   private result = this.worker("result");
   private readonly progress = new ProgressBar(workPlace(), () => runButton(this.verb), () => this.result.tell({ kind: "cancel" }));
   private readonly slider = new ResolutionSlider((faces) => this.order({ kind: "faces", faces }));
 
-  /** `changed`: when methods can be run or not. `opened`: when a session is, with the name of the sample that it has. */
+  /** `changed`: when methods can be run or not. `opened`: when a session is, with its unit of length and the name of the sample that it has. */
   constructor(
     private readonly viewer: Viewer,
-    private readonly changed: (ready: boolean, problem?: ProblemText) => void,
-    private readonly opened: (sample: string | undefined) => void,
+    private readonly changed: (problem?: ProblemText) => void,
+    private readonly opened: (session: string, unit: string, sample: string | undefined) => void,
   ) {}
 
   /** Whether a method can be run. */
   get ready(): boolean {
-    return this.session !== undefined && !this.result.busy;
+    return this.session !== undefined && !this.lost && !this.result.busy;
   }
 
   /** Whether it is what an address names; that need not say everything. */
@@ -69,20 +92,31 @@ export class Workbench {
     return session === this.session?.id && [undefined, this.made?.id].includes(representation) && [undefined, this.faces].includes(faces);
   }
 
-  /** What the address names, if it is still there. */
+  /** What the address names. Where that is not there nothing is open: what was shown before is something else. */
   async reopen(): Promise<void> {
     const place = readPlace();
+    if (place.session !== this.session?.id || !place.session) this.close(place.session ? "Opening…" : nothingOpen);
     if (!place.session) return;
-    const session = await getSession(place.session);
+    let session: Session;
+    try {
+      session = await getSession(place.session);
+    } catch (error) {
+      if (!this.session && readPlace().session === place.session) this.close(`Session ${place.session} is not open`);
+      throw error;
+    }
     if (readPlace().session !== place.session) return; // another was opened meanwhile
     this.open(session, place.name ?? "", place.sample);
-    const made = session.representations.find((one) => one.id === place.representation) ?? session.representations.at(-1);
-    if (!made) return;
+    this.again = keptOf(session.id).method;
+    const named = session.representations.find((one) => one.id === place.representation);
+    if (place.representation && !named) showProblem({ cause: "NOT_FOUND", detail: `the session has no representation ${place.representation}; shown is the newest, or the input` });
+    const made = named ?? session.representations.at(-1);
+    if (!made) return this.goOn();
     this.made = made;
     this.at = made.faces;
-    this.writePlace(place.faces ?? made.faces);
+    const faces = named && place.faces ? place.faces : made.faces;
+    this.writePlace(faces);
     this.showNotes();
-    this.order({ kind: "open", session: session.id, representation: made.id, faces: place.faces ?? made.faces, centre: this.centre });
+    this.order({ kind: "open", session: session.id, representation: made.id, faces, centre: this.centre });
   }
 
   /** A session whose mesh was just uploaded, instead of the one before, which goes if it was uploaded here: whatever an address
@@ -90,57 +124,153 @@ export class Workbench {
   replace(session: Session, name: string, sample?: string): void {
     const before = this.session?.id;
     this.open(session, name, sample);
-    // One that cannot be deleted ends when its time is over.
-    if (before && this.uploaded.delete(before)) deleteSession(before).catch(() => undefined);
+    if (!this.viewer.sees("source")) this.viewer.show("both");
+    this.giveUp(before);
     this.uploaded.add(session.id);
   }
 
-  private open(session: Session, name: string, sample: string | undefined): void {
-    if (!session.source) throw new Problem({ cause: "EMPTY_INPUT", detail: `session ${session.id} has no mesh; upload one` });
+  /** A .vsplit file, read here and held here alone. What was open before stays until it is read. Rejects with a Problem. */
+  openFile(file: File, read: (share: number) => void, signal: AbortSignal): Promise<void> {
+    return new Promise((resolve, reject) => {
+      const reader: MeshWorker = new MeshWorker((news) => {
+        if (reader === this.result) return this.hear("result", news);
+        if (news.kind === "progress") return read(news.fraction);
+        if (news.kind === "problem") {
+          reader.end();
+          return reject(new Problem(news.problem));
+        }
+        if (news.kind !== "file") return;
+        this.takeFile(reader, file.name, news);
+        resolve();
+      });
+      signal.addEventListener("abort", () => {
+        if (reader === this.result) return;
+        reader.end();
+        reject(new DOMException("cancelled", "AbortError"));
+      });
+      reader.tell({ kind: "colour", by: this.colouring.by, range: this.colouring.range });
+      reader.tell({ kind: "file", file });
+    });
+  }
+
+  private takeFile(reader: MeshWorker, name: string, news: FileNews): void {
+    const before = this.session?.id;
+    this.close(name);
+    this.giveUp(before);
+    this.result.end();
+    this.result = reader;
+    this.made = representationIn(news);
+    this.faces = this.at = news.faces;
+    this.surround(news.centre, news.half);
+    this.viewer.show("result");
+    this.recolour();
+    this.slider.set(news.facesMin, news.facesMax, news.faces);
+    this.writePlace();
+    find("summary").textContent = fileSummary(news.facesMin, news.facesMax, this.unit);
+    this.showNotes();
+  }
+
+  /** Deletes a session that was uploaded here. One that cannot be deleted ends when its time is over. */
+  private giveUp(session: string | undefined): void {
+    if (!session || !this.uploaded.delete(session)) return;
+    forget(session);
+    deleteSession(session).catch(() => undefined);
+  }
+
+  /** Nothing is open. `title`: what is said instead of a name. */
+  private close(title: string): void {
+    if (this.made && !this.session) this.viewer.show("both"); // a file has no other side
     this.source.end();
     this.result.end();
     this.source = this.worker("source");
     this.result = this.worker("result");
-    this.session = session;
-    this.alive.watch(session);
-    this.colouring.clear();
-    this.name = name;
-    this.sample = sample;
-    this.made = undefined;
-    this.running = false;
+    this.session = this.made = this.again = undefined;
+    this.lost = this.running = false;
+    this.faces = this.at = 0;
+    this.name = "";
+    this.sample = undefined;
+    this.alive.end();
     delete this.figures.source;
     delete this.figures.result;
+    this.load(false);
+    this.colouring.clear();
     this.viewer.clear("source");
     this.viewer.clear("result");
     this.slider.off();
+    this.progress.hide();
     find("stage").setAttribute("aria-busy", "false");
-    const box = session.source!.boundingBox!;
-    const low = [box.min!.x, box.min!.y, box.min!.z], high = [box.max!.x, box.max!.y, box.max!.z];
-    this.centre = low.map((v, axis) => (v + high[axis]!) / 2) as unknown as Point;
-    const half = low.map((v, axis) => (high[axis]! - v) / 2) as unknown as Point;
-    this.diagonal = 2 * Math.hypot(...half);
-    this.viewer.frame(half);
-    this.source.tell({ kind: "source", path: meshPath(session.id, "", 0, "PLY"), centre: this.centre });
-    this.writePlace();
-    this.showSummary();
+    find("legend").replaceChildren();
+    find("part").textContent = title;
+    find("summary").textContent = "";
     this.showNotes();
     this.showQuality();
-    void this.showWorst();
-    this.opened(sample);
-    this.changed(true);
+    this.showWorst();
+    this.changed();
+  }
+
+  private open(session: Session, name: string, sample: string | undefined): void {
+    if (!session.source) throw new Problem({ cause: "EMPTY_INPUT", detail: `session ${session.id} has no mesh; upload one` });
+    this.close(name || `session ${session.id}`);
+    this.session = session;
+    this.name = name;
+    this.sample = sample;
+    this.alive.watch(session);
+    const { min, max } = session.source.boundingBox!;
+    const low = [min!.x, min!.y, min!.z], high = [max!.x, max!.y, max!.z];
+    this.surround(
+      low.map((v, axis) => (v + high[axis]!) / 2) as unknown as Point,
+      low.map((v, axis) => (high[axis]! - v) / 2) as unknown as Point,
+    );
+    this.load(true);
+    this.source.tell({ kind: "source", path: meshPath(session.id, "", 0, "PLY"), centre: this.centre });
+    this.recolour();
+    this.writePlace();
+    find("summary").textContent = summaryOf(session.source, this.unit);
+    this.showNotes();
+    this.opened(session.id, this.unit, sample);
+    this.changed();
+  }
+
+  /** The input is on its way, or no more. */
+  private load(is: boolean): void {
+    find("canvas").toggleAttribute("data-loading", is);
+  }
+
+  /** The box around what is open: its middle, and half its edges. */
+  private surround(centre: Point, half: Point): void {
+    this.centre = centre;
+    this.viewer.frame(half);
   }
 
   run(verb: Verb, options: object): void {
-    if (!this.session) return;
-    this.verb = verb;
-    this.running = true;
     const body: Record<string, unknown> = { options };
     // Control is for meshes that were improved; improve begins anew.
     if (verb === "control" && this.made) body["source"] = { representation: this.made.id, faces: this.faces };
-    this.changed(false);
+    this.ask({ verb, body });
+  }
+
+  private ask({ verb, body }: Asked, note = ""): void {
+    if (!this.session || this.lost) return;
+    this.again = undefined;
+    this.verb = verb;
+    this.running = true;
+    keep(this.session.id, { method: { verb, body } });
     this.slider.off();
+    this.progress.title = `${verbNames[verb]}${note}: `;
     this.progress.show("queued", 0);
     this.order({ kind: "method", path: `/v1/sessions/${this.session.id}:${verb}`, body, centre: this.centre });
+    this.changed();
+  }
+
+  /** The server ends a method whose client leaves, so one that ran at a reload is asked for anew. Where it came to its end, its
+   * result is there, and is the answer. */
+  private goOn(): void {
+    if (this.again) this.ask(this.again, ", asked for anew");
+  }
+
+  /** The method has ended, so or so. */
+  private ended(): void {
+    if (this.running && this.session) keep(this.session.id, { method: undefined });
   }
 
   colour(by: ColourBy): void {
@@ -153,13 +283,13 @@ export class Workbench {
 
   /** Where the mesh that is shown can be had as a file. */
   file(format: string): string | undefined {
-    return this.session ? meshPath(this.session.id, this.made?.id ?? "", this.faces, format) : undefined;
+    return this.session && !this.lost ? meshPath(this.session.id, this.made?.id ?? "", this.faces, format) : undefined;
   }
 
   private recolour(): void {
     const { by, range } = this.colouring;
     for (const worker of [this.source, this.result]) worker.tell({ kind: "colour", by, range });
-    if (this.session) find("legend").replaceChildren(legend(by, range, this.unit));
+    if (this.session || this.made) find("legend").replaceChildren(legend(by, range, this.unit));
   }
 
   private order(order: Order): void {
@@ -181,6 +311,7 @@ export class Workbench {
         this.colouring.take(slot, news.patch);
         if (slot === "source") {
           this.viewer.apply(slot, news.patch);
+          this.load(false);
         } else {
           this.draw(news.patch);
           this.faces = news.patch.visible;
@@ -192,26 +323,31 @@ export class Workbench {
         this.figures[slot] = news.figures;
         this.colouring.measured(slot, news.figures.sizes);
         this.showQuality();
-        if (slot === "result" && this.made) this.settle();
+        this.showWorst();
+        if (slot === "result" && this.made) this.writePlace(this.faces);
         return;
       case "progress":
-        performance.mark("vsplit method ended"); // unless another comes
+        mark("vsplit method ended"); // unless another comes
         this.fresh = true;
         return this.progress.show(news.stage, news.fraction, news.faces);
       case "place":
         return this.fly("result", news.place, news.size);
       case "representation":
+        this.ended();
         return this.take(fromJson(RepresentationSchema, news.json as JsonValue));
       case "problem":
-        showProblem(news.problem);
-        return this.changed(this.ready, news.problem);
+        // A method that the end of a server cut off is asked for anew after a reload.
+        if (slot === "result" && news.problem.cause !== "UNAVAILABLE") this.ended();
+        if (slot === "source") this.load(false);
+        return this.tell(news.problem);
       case "idle":
         if (slot === "source" || this.result.busy) return;
         this.running = false;
         find("stage").setAttribute("aria-busy", "false");
         this.progress.hide();
         if (this.made) this.slider.set(this.made.facesMin, this.made.facesMax, this.faces);
-        return this.changed(this.ready);
+        this.changed();
+        return this.goOn();
     }
   }
 
@@ -223,43 +359,43 @@ export class Workbench {
     this.slider.set(made.facesMin, made.facesMax, made.faces);
     this.showNotes();
     this.showQuality();
-    this.settle();
+    this.writePlace(this.faces);
+  }
+
+  /** Something went wrong. What is held of a session that is gone stays to be looked at. */
+  private tell(problem: ProblemText): void {
+    showProblem(problem);
+    if (problem.cause === "NOT_FOUND" && problem.field === "session" && this.session) {
+      this.lost = true;
+      this.ended();
+      this.alive.end();
+      find("summary").textContent = "The server has this session no more: shown is what came from it before. Upload the mesh again to go on.";
+    }
+    this.changed(problem);
   }
 
   /** With marks in the browser's timeline: what a change costs, and when it is seen. */
   private draw(patch: Patch): void {
     const begun = performance.now();
     this.viewer.apply("result", patch);
+    performance.clearMeasures("vsplit copied");
     performance.measure("vsplit copied", { start: begun });
     const first = this.fresh;
     this.fresh = false;
     void this.viewer.afterDraw().then(() => {
-      if (first) performance.mark("vsplit drawn first");
-      performance.mark("vsplit drawn");
+      if (first) mark("vsplit drawn first");
+      mark("vsplit drawn");
     });
-  }
-
-  /** The mesh stays as it is for now: the address names it, and its worst faces are asked for. */
-  private settle(): void {
-    this.writePlace(this.faces);
-    void this.showWorst();
   }
 
   private writePlace(faces?: number): void {
     const { name, sample } = this;
-    writePlace({ session: this.session!.id, representation: this.made?.id, faces, name, sample });
+    writePlace(this.session ? { session: this.session.id, representation: this.made?.id, faces, name, sample } : {});
   }
 
-  private async showWorst(): Promise<void> {
-    const session = this.session!.id, made = this.made?.id ?? "", faces = this.faces;
-    const isShown = (): boolean => session === this.session?.id && made === (this.made?.id ?? "") && (!made || faces === this.faces);
-    try {
-      const quality = await getQuality(session, made, faces, worstFaces);
-      if (!isShown()) return;
-      refill(find("worst"), worstList(quality.worstFaces, (place, size) => this.fly(made ? "result" : "source", place, size)));
-    } catch (error) {
-      if (isShown()) showProblem(problemText(error));
-    }
+  private showWorst(): void {
+    const slot = this.made ? "result" : "source";
+    refill(find("worst"), worstList(this.figures[slot]?.worst ?? [], (place, size) => this.fly(slot, place, size)));
   }
 
   /** To an element of the resolution that the method was asked for: it may not be there at others. */
@@ -268,7 +404,7 @@ export class Workbench {
     else this.order({ kind: "locate", faces: this.at, element });
   }
 
-  private fly(slot: Slot, place: Point, size: number): void {
+  private fly(slot: Slot, place: Point, size?: number): void {
     find("canvas").dataset["flown"] = place.join(" ");
     this.viewer.fly(slot, place.map((v, axis) => v - this.centre[axis]!) as unknown as Point, size);
   }
@@ -280,21 +416,22 @@ export class Workbench {
   }
 
   private showNotes(): void {
-    const findings = findingList(this.session?.source?.findings ?? [], this.diagonal / 100, (place, size) => this.fly("source", place, size));
-    const notes = [...(this.made ? resultNotes(this.made, this.at, (element) => this.locate(element)) : []), ...findings];
-    refill(find("notes"), ...(notes.length > 0 ? notes : ["Nothing to report."]));
+    const { session, made } = this;
+    const cut = session?.interrupted.filter(() => !this.again && !this.running) ?? [];
+    const notes = [
+      ...interruptedNotes(cut, (method) => {
+        session!.interrupted = session!.interrupted.filter((one) => one !== method);
+        this.ask(askedOf(method));
+        this.showNotes();
+      }),
+      ...(made ? resultNotes(made, this.at, (element) => this.locate(element)) : []),
+      ...findingList(session?.source?.findings ?? [], (place) => this.fly("source", place)),
+    ];
+    refill(find("notes"), ...(notes.length > 0 ? notes : [session || made ? "Nothing to report." : "–"]));
   }
 
   /** Of lengths. */
   private get unit(): string {
-    return symbolOf(this.session?.source?.unit);
-  }
-
-  private showSummary(): void {
-    const { source } = this.session!;
-    const kind = source!.closed ? `closed, genus ${source!.genus}` : `${count(source!.boundaryEdges)} boundary edges`;
-    const pieces = source!.components === 1 ? "1 piece" : `${count(source!.components)} pieces`;
-    find("part").textContent = this.name || `session ${this.session!.id}`;
-    find("summary").textContent = `${count(source!.faces)} faces, ${count(source!.vertices)} vertices; ${pieces}, ${kind}${this.unit ? `; lengths in ${this.unit}` : ""}.`;
+    return symbolOf(this.session ? this.session.source?.unit : this.made?.unit);
   }
 }

@@ -19,6 +19,15 @@ export interface Element {
 /** Least, mean and largest of a figure; zeros where there is nothing. */
 export type Spread = readonly [min: number, mean: number, max: number];
 
+/** A face that is seen, numbered as the server does, and where its middle is. */
+export interface WorstFace {
+  face: number;
+  stretch: number;
+  /** Longest edge. */
+  size: number;
+  place: Point;
+}
+
 /** Figures of the mesh as a worker holds it. */
 export interface Figures {
   faces: number;
@@ -33,6 +42,8 @@ export interface Figures {
   spread: { stretch: Spread; size: Spread; valence: Spread };
   /** Longest edges of faces: the least above 0, and the largest. */
   sizes: Range;
+  /** The worst by stretch, the worst first. */
+  worst: WorstFace[];
 }
 
 /** Faces to draw anew: runs of them, and the bytes of all runs one after the other. Three corners a face, no index. */
@@ -58,6 +69,8 @@ export interface Patch {
 export type Order =
   | { kind: "source"; path: string; centre: Point }
   | { kind: "method"; path: string; body: object; centre: Point }
+  /** A .vsplit file, held here alone. */
+  | { kind: "file"; file: Blob }
   | { kind: "open"; session: string; representation: string; faces: number; centre: Point }
   | { kind: "faces"; faces: number }
   /** To the resolution that the element is of, and where it is there. */
@@ -72,6 +85,8 @@ export type News =
   | { kind: "patch"; patch: Patch }
   | { kind: "figures"; figures: Figures }
   | { kind: "place"; place: Point; size: number }
+  /** A file is read: what it says of itself, its levels, and the box around it, of which `half` is half. */
+  | { kind: "file"; json: unknown; faces: number; facesMin: number; facesMax: number; centre: Point; half: Point }
   | { kind: "representation"; json: unknown }
   | { kind: "problem"; problem: ProblemText }
   | { kind: "idle" };

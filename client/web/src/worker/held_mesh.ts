@@ -1,5 +1,5 @@
-import { Encoding, float32Grid, float64Grid, ProgressiveMesh, RecordDecoder, unpackBase, crc32c, type Grid } from "../../decoder/src/index";
-import type { BaseMesh, RecordBlock } from "../gen/vsplit/v1/meshing_pb";
+import { Encoding, float32Grid, float64Grid, ProgressiveMesh, RecordDecoder, unpackBase, crc32c, type Grid, type RecordBlock } from "../../decoder/src/index";
+import type { BaseMesh } from "../gen/vsplit/v1/meshing_pb";
 
 /** The mesh of a representation as far as records have come: taken up and down between its coarsest level and what is held. */
 export class HeldMesh {
@@ -31,6 +31,11 @@ export class HeldMesh {
 
   get visible(): number {
     return this.visibleOf(this.mesh.faceCount);
+  }
+
+  /** Seen at the coarsest level. */
+  get visibleLeast(): number {
+    return this.visibleOf(this.baseFaces);
   }
 
   /** Seen at the finest level that is held. */

@@ -1,5 +1,5 @@
 import type { Element, Point } from "../shared/protocol";
-import { FaceShape, isSeen, type Surface } from "./surface";
+import { centroid, FaceShape, isSeen, type Surface } from "./surface";
 
 /** Where something is, and the longest edge of its faces, to look at it from a fitting distance. */
 export interface PlaceOf {
@@ -12,11 +12,6 @@ function seenFace(surface: Surface, n: number): number | undefined {
   if (surface.ghosts === 0) return n < surface.faceCount ? n : undefined;
   for (let face = 0; face < surface.faceCount; ++face) if (isSeen(surface, face) && n-- === 0) return face;
   return undefined;
-}
-
-function centroid({ corners, positions }: Surface, face: number): Point {
-  const mean = (axis: number): number => [0, 1, 2].reduce((sum, c) => sum + positions[3 * corners[3 * face + c]! + axis]!, 0) / 3;
-  return [mean(0), mean(1), mean(2)];
 }
 
 /** Where a face or vertex is, numbered as the server does; undefined where there is none. O(faces). */

@@ -1,3 +1,5 @@
+import type { Point } from "../shared/protocol";
+
 /** A mesh as the workers look at it: a ProgressiveMesh, or one read from a file. */
 export interface Surface {
   readonly vertexCount: number;
@@ -12,6 +14,12 @@ export function isSeen({ corners, ghosts }: Surface, face: number): boolean {
   if (ghosts === 0) return true;
   const at = 3 * face;
   return corners[at]! >= ghosts && corners[at + 1]! >= ghosts && corners[at + 2]! >= ghosts;
+}
+
+/** The middle of a face. */
+export function centroid({ corners, positions }: Surface, face: number): Point {
+  const mean = (axis: number): number => [0, 1, 2].reduce((sum, c) => sum + positions[3 * corners[3 * face + c]! + axis]!, 0) / 3;
+  return [mean(0), mean(1), mean(2)];
 }
 
 /** Stretch and longest edge of a face, without making anything. */

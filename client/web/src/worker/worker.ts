@@ -10,6 +10,7 @@ import type { Element, News, Order, Patch, Point } from "../shared/protocol";
 import { measure } from "./figures";
 import { eventsOf } from "./frames";
 import { BaseParts, type HeldMesh } from "./held_mesh";
+import { boxOf, readMrr } from "./mrr_source";
 import { Orders } from "./orders";
 import { Painter } from "./painter";
 import { placeOf } from "./places";
@@ -138,11 +139,11 @@ function show(faces: number): void {
 
 /** Up or down among the records that are here; what is finer is asked for. */
 async function goTo(faces: number, centre: Point): Promise<void> {
-  if (!held || !opened) return;
+  if (!held) return;
   // Else what was asked for before would have the last word.
   running?.abort(superseded);
   show(faces);
-  if (faces <= held.visibleHeld) return;
+  if (!opened || faces <= held.visibleHeld) return; // a file holds all it has
   const body = { representation: opened.representation, faces, resumeFrom: held.recordsHeld, facesHeld: held.recordsHeld === 0 ? held.visibleHeld : 0 };
   await stream(`/v1/sessions/${opened.session}:setResolution`, body, opened.session, centre);
 }
@@ -152,6 +153,20 @@ async function locate(faces: number, element: Element, centre: Point): Promise<v
   await goTo(faces, centre);
   const found = held?.visible === faces ? placeOf(held.mesh, element) : undefined;
   if (found) tell({ kind: "place", ...found });
+}
+
+async function openFile(file: Blob): Promise<void> {
+  const read = async (share: number): Promise<void> => {
+    tell({ kind: "progress", stage: "read", fraction: share, faces: 0 });
+    await new Promise((resolve) => setTimeout(resolve));
+  };
+  const { held: mesh, description } = await readMrr(file, read);
+  hold(mesh);
+  const box = boxOf(mesh);
+  centre = box.centre;
+  painter = new Painter(centre, ramp);
+  tell({ kind: "file", json: description, faces: mesh.visible, facesMin: mesh.visibleLeast, facesMax: mesh.visibleHeld, ...box });
+  draw(true, performance.now(), mesh.mesh.records);
 }
 
 async function loadSource(path: string, centre: Point): Promise<void> {
@@ -172,6 +187,8 @@ async function obey(order: Order): Promise<void> {
       return loadSource(order.path, centre);
     case "method":
       return stream(order.path, order.body, order.path.split("/").at(-1)!.split(":")[0]!, centre);
+    case "file":
+      return openFile(order.file);
     case "open":
       return stream(`/v1/sessions/${order.session}:setResolution`, { representation: order.representation, faces: order.faces }, order.session, centre);
     case "faces":
