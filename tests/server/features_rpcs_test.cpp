@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "service/session_features.h"
 #include "test_client.h"
 #include "test_server.h"
 #include "tests/core/drilled_plate.h"
@@ -98,6 +99,28 @@ TEST(FeaturesRpcsTest, RefusalsChangeNothing) {
     nothing.set_session(session);
     EXPECT_EQ(remove(server, nothing).status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
     EXPECT_EQ(list(server, session).message.features_size(), 3);
+}
+
+TEST(FeaturesRpcsTest, WhoDoesNotWaitChangesNothing) {
+    TestServer server;
+    const std::string session = session_with(server.stub(), plate());
+    FeatureRemoval removal;
+    removal.max_diameter = 10;
+    const auto removed = service::remove_features_of(server.service(), session, removal, [] { return false; });
+    ASSERT_FALSE(removed);
+    EXPECT_EQ(removed.error().cause, Cause::kCancelled);
+    EXPECT_EQ(get_session(server.stub(), session).message.source().faces(), plate().face_count());
+    EXPECT_TRUE(remove(server, all_under(session, 10)).status.ok()) << "the session is free again";
+}
+
+TEST(FeaturesRpcsTest, MemoryIsAskedForBeforeItIsTaken) {
+    constexpr std::uint64_t kMoreThanReadingTakes = 150;  // bytes a face
+    service::ServiceOptions options = small_server();
+    options.limits.memory_bytes = kMoreThanReadingTakes * plate().face_count();
+    TestServer server(options);
+    const auto removed = remove(server, all_under(session_with(server.stub(), plate()), 10));
+    EXPECT_TRUE(failed_with(removed.status, Cause::kLimitExceeded));
+    EXPECT_THAT(removed.status.error_message(), HasSubstr("max_memory_bytes"));
 }
 
 TEST(FeaturesRpcsTest, SessionsWithoutAMeshOrWithAnOpenOne) {
