@@ -156,7 +156,7 @@ private:
         return refuse(bad_value(path(), value, (is_place_of_one(field) ? "" : "a list, each element ") + accepted_values(field)));
     }
 
-    bool scalar(JsonScalar value) {
+    bool scalar(const JsonScalar& value) {
         ++size_.values;
         begin_value();
         if (frames_.empty()) return refuse(no_object(text_of(value)));

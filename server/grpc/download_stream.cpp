@@ -6,6 +6,7 @@
 #include <span>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "guard/digest.h"
@@ -157,6 +158,15 @@ private:
     bool told_ = false;
 };
 
+/// Whether the disk has room for a file that nobody reads, which must keep no upload out.
+bool has_room(const std::filesystem::path& directory, std::uint64_t bytes) {
+    constexpr std::uint64_t kTimes = 10;
+    std::error_code failed;
+    const auto place = directory.empty() ? std::filesystem::temp_directory_path(failed) : directory;
+    const std::filesystem::space_info space = std::filesystem::space(place, failed);
+    return !failed && space.available / kTimes >= bytes;
+}
+
 /// Begins to write the file that `shared` waits for. False when the server is shut down.
 bool begin_file(service::MeshingService& service, const std::weak_ptr<FileShelf>& weak_shelf, const FileName& name,
                 const std::shared_ptr<SharedFile>& shared, const Wanted& wanted) {
@@ -166,8 +176,14 @@ bool begin_file(service::MeshingService& service, const std::weak_ptr<FileShelf>
         const auto make_room = [&] {
             if (const std::shared_ptr<FileShelf> shelf = weak_shelf.lock()) shelf->clear();
         };
-        file->put(service::guarded([&] { return write_file(wanted, options.temp_directory, make_room); }));
-        if (const std::shared_ptr<FileShelf> shelf = weak_shelf.lock()) shelf->made(name, file);
+        Expected<MeshFile> made = service::guarded([&] { return write_file(wanted, options.temp_directory, make_room); });
+        const std::shared_ptr<FileShelf> shelf = weak_shelf.lock();
+        if (made && shelf) {
+            // Memory is for those alone who read it now.
+            const bool rests = made->mapping && has_room(options.temp_directory, made->facts.size);
+            shelf->made(name, file, made->facts, rests ? FileShelf::Rest::kYes : FileShelf::Rest::kNo);
+        }
+        file->put(std::move(made));
     });
 }
 

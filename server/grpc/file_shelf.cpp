@@ -58,16 +58,14 @@ std::optional<FileFacts> FileShelf::find(const FileName& name) {
     return found->second.facts;
 }
 
-void FileShelf::made(const FileName& name, const std::shared_ptr<SharedFile>& file) {
-    const Expected<MeshFile>* const made = file->get();
-    if (made == nullptr || !*made) return;
+void FileShelf::made(const FileName& name, const std::shared_ptr<SharedFile>& file, const FileFacts& facts, Rest rest) {
     Dropped dropped;
     const std::lock_guard lock(mutex_);
     Entry& entry = entry_of(name);
     if (entry.file.lock() != file) return;
-    entry.facts = (*made)->facts;
+    entry.facts = facts;
     entry.read = Clock::now();
-    if ((*made)->mapping) entry.resting = file;  // memory is for those alone who read it now
+    if (rest == Rest::kYes) entry.resting = file;
     keep_to_limits(dropped);
 }
 

@@ -80,8 +80,11 @@ public:
     /// What is known of a file that was made before. O(log files).
     [[nodiscard]] std::optional<FileFacts> find(const FileName& name);
 
-    /// To be called when `file` has been made. O(files).
-    void made(const FileName& name, const std::shared_ptr<SharedFile>& file);
+    enum class Rest { kYes, kNo };
+
+    /// To be called when `file` has been made, before it is put there for those who wait: they may ask about it at once.
+    /// O(files).
+    void made(const FileName& name, const std::shared_ptr<SharedFile>& file, const FileFacts& facts, Rest rest);
 
     /// Gives up what rests, where there is no room for another file.
     void clear();

@@ -178,7 +178,9 @@ void add_environment(CLI::App& app, const Environment& environment, std::vector<
         const std::string& name = option->get_lnames().front();
         if ((!option->get_configurable() && name != "config") || is_given(arguments, name)) continue;
         const std::string value = environment(variable_of(name)).value_or("");
-        if (!value.empty()) more.push_back("--" + name + '=' + value);  // after a bare "=" CLI11 would take the next argument
+        if (value.empty()) continue;  // after a bare "=" CLI11 would take the next argument
+        more.push_back("--" + name + '=');
+        more.back() += value;
     }
     arguments.insert(arguments.begin(), more.begin(), more.end());
 }

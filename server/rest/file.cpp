@@ -241,10 +241,14 @@ Awaitable<void> serve_file(Exchange& exchange, const Route& route, const Target&
         co_await description.give_up(true);
         if (answered) co_return;
     }
+    const net::any_io_executor executor = exchange.executor();
+    const std::shared_ptr<Turns::Turn> turn = co_await tools.files.take(target.path, executor);
     const RpcCall::Metadata nothing;
     const std::shared_ptr<RpcCall> call = co_await ask_for(exchange, route, request, tools, nothing);
     FileStream file(call, tools.json.schema, *route.rpc->output_type());
-    if (!co_await file.next()) co_return co_await fail_without_file(exchange, file);
+    const bool begun = co_await file.next();
+    turn->end();
+    if (!begun) co_return co_await fail_without_file(exchange, file);
     const bool to_the_end = co_await answer_with(exchange, file);
     co_await file.give_up(to_the_end);
 }

@@ -15,6 +15,9 @@ namespace vsplit::rest {
 namespace {
 
 constexpr unsigned kHeavyThreads = 2;
+// Files that begin at a time: enough that no core waits, and so few that what is done for them keeps no other request.
+constexpr std::size_t kFilesAtATime = 4;
+constexpr std::chrono::milliseconds kLongestTurn{10};
 constexpr std::size_t kQuotedBytes = 200;
 constexpr std::size_t kLongPage = 1400;  // worth compressing
 constexpr std::string_view kPageMethods = "GET, HEAD, OPTIONS";
@@ -62,6 +65,7 @@ Gateway::Gateway(Backend backend, RestOptions options, std::unique_ptr<Schema> s
       router_(std::move(router)),
       budget_(options_.limits.all_json_bytes),
       background_(kHeavyThreads),
+      files_(kFilesAtATime, kLongestTurn),
       rpcs_(backend_.channel) {
     pages_ = operations_pages({backend_.ready, backend_.metrics, openapi_document(*schema_, router_, backend_.version)});
     for (auto& [path, page] : backend_.pages) pages_[path] = page;
@@ -173,7 +177,7 @@ Awaitable<void> Gateway::serve_ready(Exchange& exchange) {
 }
 
 Awaitable<void> Gateway::serve_rpc(Exchange& exchange, const Route& route, const Target& target) {
-    const Tools tools{rpcs_, {*schema_, background_, budget_}};
+    const Tools tools{rpcs_, {*schema_, background_, budget_}, files_};
     if (creates_with_mesh(exchange, route)) co_return co_await serve_create_with_mesh(exchange, route, target, tools);
     switch (shape_of(*route.rpc)) {
         case RpcShape::kUnary:

@@ -13,6 +13,7 @@
 #include "rest/rest_options.h"
 #include "rest/router.h"
 #include "rest/schema.h"
+#include "rest/turns.h"
 
 namespace vsplit::rest {
 
@@ -62,6 +63,7 @@ private:
     Pages pages_;
     JsonBudget budget_;
     Background background_;
+    Turns files_;
     RpcClient rpcs_;
 };
 

@@ -9,6 +9,7 @@
 #include "rest/json_body.h"
 #include "rest/router.h"
 #include "rest/rpc_client.h"
+#include "rest/turns.h"
 
 namespace vsplit::rest {
 
@@ -16,6 +17,7 @@ namespace vsplit::rest {
 struct Tools {
     RpcClient& rpcs;
     JsonWorks json;
+    Turns& files;  ///< to begin to send one
 };
 
 inline constexpr std::string_view kBytesType = "application/octet-stream";

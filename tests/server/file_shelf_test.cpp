@@ -31,8 +31,10 @@ protected:
     void make(FileShelf& shelf, const std::string& text, std::size_t bytes) {
         const auto [file, first] = shelf.join(name(text));
         EXPECT_TRUE(first) << text;
-        file->put(file_of(bytes));
-        shelf.made(name(text), file);
+        MeshFile made = file_of(bytes);
+        shelf.made(name(text), file, made.facts, FileShelf::Rest::kYes);
+        EXPECT_TRUE(shelf.find(name(text))) << "known before anybody is told of it";
+        file->put(std::move(made));
     }
 
     bool lies_there(FileShelf& shelf, const std::string& text) { return !shelf.join(name(text)).second; }
@@ -107,12 +109,24 @@ TEST_F(FileShelfTest, AnotherMeshIsAnotherFile) {
     EXPECT_FALSE(lies_there(shelf, "a"));
 }
 
-TEST_F(FileShelfTest, AFailureIsNotKept) {
+TEST_F(FileShelfTest, WhereTheDiskIsShortNothingRests) {
     FileShelf shelf({});
     {
         const auto [file, first] = shelf.join(name("a"));
+        MeshFile made = file_of(10);
+        shelf.made(name("a"), file, made.facts, FileShelf::Rest::kNo);
+        file->put(std::move(made));
+        EXPECT_TRUE(lies_there(shelf, "a")) << "while it is read";
+    }
+    EXPECT_FALSE(lies_there(shelf, "a"));
+    EXPECT_TRUE(shelf.find(name("a"))) << "but it is known";
+}
+
+TEST_F(FileShelfTest, AFailureIsNotKept) {
+    FileShelf shelf({});
+    {
+        const std::shared_ptr<SharedFile> file = shelf.join(name("a")).first;
         file->put(Error{Cause::kLimitExceeded, "no memory", ""});
-        shelf.made(name("a"), file);
     }
     EXPECT_FALSE(shelf.find(name("a")));
     EXPECT_FALSE(lies_there(shelf, "a"));

@@ -112,18 +112,19 @@ TEST_F(ServerOptionsTest, RefusesWhatIsNoNumberOfItsRangeWhereverItComes) {
              Wrong{"session-ttl", wholes, "a whole number from 1 to 3162240000"},
              Wrong{"drain", wholes, "a whole number from 0 to 86400"},
          }) {
-        for (const std::string value : wrong.values) {
-            const std::string option = wrong.option;
-            std::string variable = "VSPLITD_" + option;
-            std::replace(variable.begin(), variable.end(), '-', '_');
-            std::transform(variable.begin(), variable.end(), variable.begin(), [](unsigned char c) { return std::toupper(c); });
-            const auto told = [&] {
-                return errors_.find("--" + option) != std::string::npos && errors_.find(wrong.accepted) != std::string::npos;
+        const std::string flag = std::string("--") + wrong.option;
+        std::string variable = std::string("VSPLITD_") + wrong.option;
+        std::replace(variable.begin(), variable.end(), '-', '_');
+        std::transform(variable.begin(), variable.end(), variable.begin(), [](unsigned char c) { return std::toupper(c); });
+        for (const char* value : wrong.values) {
+            const auto refused_well = [&](const std::vector<std::string>& arguments, const Variables& variables = {}) {
+                return refused(arguments, variables) && errors_.find(flag) != std::string::npos &&
+                       errors_.find(wrong.accepted) != std::string::npos;
             };
-            EXPECT_TRUE(refused({"--" + option + '=' + value}) && told()) << option << ' ' << value << ": " << errors_;
-            EXPECT_TRUE(refused({}, {{variable, value}}) && told()) << variable << ' ' << value << ": " << errors_;
-            write(option + " = " + value + '\n');
-            EXPECT_TRUE(refused({"--config", file_}) && told()) << "file: " << option << ' ' << value << ": " << errors_;
+            EXPECT_TRUE(refused_well({std::string(flag).append("=").append(value)})) << flag << ' ' << value << ": " << errors_;
+            EXPECT_TRUE(refused_well({}, {{variable, value}})) << variable << ' ' << value << ": " << errors_;
+            write(std::string(wrong.option).append(" = ").append(value).append("\n"));
+            EXPECT_TRUE(refused_well({"--config", file_})) << "file: " << wrong.option << ' ' << value << ": " << errors_;
         }
     }
     EXPECT_EQ(options({"--max-request-rate", "2.5"}).max_request_rate, 2.5);
