@@ -1,7 +1,7 @@
 import { create, fromJson, type JsonValue } from "@bufbuild/protobuf";
 import { RepresentationSchema, type Representation, type Session } from "../gen/vsplit/v1/meshing_pb";
 import type { ColourBy } from "../shared/colours";
-import { Problem } from "../shared/problem";
+import { Problem, problemText } from "../shared/problem";
 import type { Element, Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
 import { symbolOf } from "../shared/units";
 import { readPlace, writePlace, type Place } from "./address";
@@ -101,7 +101,9 @@ export class Workbench {
     try {
       session = await getSession(place.session);
     } catch (error) {
-      if (!this.session && readPlace().session === place.session) this.close(`Session ${place.session} is not open`);
+      // What another token was shown is not for this one.
+      const gone = !this.session || problemText(error).cause === "NOT_FOUND";
+      if (gone && readPlace().session === place.session) this.close(`Session ${place.session} is not open`);
       throw error;
     }
     if (readPlace().session !== place.session) return; // another was opened meanwhile
