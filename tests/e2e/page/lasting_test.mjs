@@ -110,6 +110,12 @@ const steps = {
       await page.evaluate((id) => (location.hash = `session=${id}`), before.session);
       await settled(page);
     }
+    // There, but without a mesh.
+    const { id } = await (await fetch(`${address}/v1/sessions`, { method: "POST" })).json();
+    await page.evaluate((text) => (location.hash = `session=${text}`), id);
+    assert.match(await problem(page), /^EMPTY_INPUT session \w+ has no mesh/);
+    assert.equal(await page.textContent("#part"), `Session ${id} is not open`);
+    await fetch(`${address}/v1/sessions/${id}`, { method: "DELETE" });
     await page.evaluate((id) => (location.hash = `session=${id}&representation=r9`), before.session);
     assert.match(await problem(page), /^NOT_FOUND .*no representation r9/);
     await settled(page);
