@@ -5,6 +5,7 @@ import { openPage, run, settled, startServer, upload } from "../tests/e2e/page/b
 const [vsplitd, data, out] = process.argv.slice(2);
 const server = await startServer(vsplitd);
 const { browser, page } = await openPage(server.address, { width: 1440, height: 860 });
+await page.selectOption("#unit", "MILLIMETRE");
 await upload(page, join(data, "crankshaft.stl"));
 await run(page, "improve", { subdivisionSize: 8, tolerance: 1, faces: 30000 });
 await settled(page, 300000);

@@ -28,3 +28,19 @@ test("a mesh without faces has no figures, and no infinite ones", () => {
   const { spread, stretchMin, sizeMax } = measure({ ...surface, faceCount: 0 });
   expect([...spread.stretch, ...spread.size, ...spread.valence, stretchMin, sizeMax]).toEqual(new Array(11).fill(0));
 });
+
+test("the worst faces come first, of equals the first, twenty at most, with their middles", () => {
+  // Thirty triangles in a row, by turns of three heights; the lower the worse.
+  const heights = Array.from({ length: 30 }, (_, n) => [1, 0.2, 0.6][n % 3]!);
+  const positions = Float64Array.from(heights.flatMap((high, n) => [3 * n, 0, 0, 3 * n + 2, 0, 0, 3 * n + 1, high, 0]));
+  const corners = Uint32Array.from({ length: 90 }, (_, n) => n);
+  const { worst } = measure({ vertexCount: 90, faceCount: 30, ghosts: 0, positions, corners });
+  const expected = [...[1, 4, 7, 10, 13, 16, 19, 22, 25, 28], ...[2, 5, 8, 11, 14, 17, 20, 23, 26, 29]];
+  expect(worst.map(({ face }) => face)).toEqual(expected);
+  expect(worst[0]!.place[0]).toBeCloseTo(4, 12);
+  expect(worst[0]!.place[1]).toBeCloseTo(0.2 / 3, 12);
+  expect(worst[0]!.size).toBe(2);
+  // Faces of ghosts are not counted: numbers are those of the server.
+  const open = measure({ vertexCount: 90, faceCount: 30, ghosts: 3, positions, corners });
+  expect(open.worst[0]!.face).toBe(0);
+});

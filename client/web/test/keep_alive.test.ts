@@ -37,6 +37,25 @@ test("the session that is open is kept alive again and again, another only while
   expect(calls.length).toBe(3);
 });
 
+test("where the server is away for a while, or refuses for a while, it is asked again, and that is told of once", async () => {
+  const calls: number[] = [];
+  const answers = [503, 429, 200, 503, 200];
+  vi.stubGlobal("fetch", async () => {
+    const status = answers[calls.length] ?? 200;
+    calls.push(Date.now());
+    if (status === 200) return kept();
+    return answer(status, status === 503 ? { cause: "UNAVAILABLE", detail: "not now" } : { cause: "LIMIT_EXCEEDED", detail: "too many", retryAfter: 20 });
+  });
+  const told: unknown[] = [];
+  const alive = new KeepAlive((problem) => told.push(problem));
+  alive.watch(ending(30));
+  await vi.advanceTimersByTimeAsync(70_000);
+  alive.end();
+  expect(calls.length).toBeGreaterThanOrEqual(5);
+  expect(told).toEqual([{ cause: "UNAVAILABLE", detail: "not now" }, { cause: "UNAVAILABLE", detail: "not now" }].map((one) => expect.objectContaining(one)));
+  expect(calls[2]! - calls[1]!).toBe(20_000);
+});
+
 test("a session that is gone is told of once", async () => {
   vi.stubGlobal("fetch", async () => answer(404, { cause: "NOT_FOUND", detail: "no session", status: 404, title: "NOT_FOUND" }));
   const lost: unknown[] = [];

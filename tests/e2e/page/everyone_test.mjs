@@ -130,10 +130,34 @@ const steps = {
     assert.equal(still, 0);
   },
 
+  async "what runs is spoken of stage by stage, not number by number"({ page }) {
+    const heard = await page.evaluate(async () => {
+      const live = [...document.querySelectorAll("[aria-live]:not([aria-live=off]), [role=status], [role=alert]")];
+      const said = [];
+      const ears = live.map((place) => {
+        const ear = new MutationObserver(() => said.push(place.textContent.trim()));
+        ear.observe(place, { childList: true, subtree: true, characterData: true });
+        return ear;
+      });
+      document.getElementById("improve-faces").value = "7000";
+      document.querySelector("#improve button[type=submit]").click();
+      const work = document.getElementById("work");
+      while (work.childElementCount > 0) await new Promise((resolve) => setTimeout(resolve, 20));
+      for (const ear of ears) ear.disconnect();
+      return said;
+    });
+    assert.equal(heard[0], "Improve: Waiting for its turn");
+    assert.ok(heard.includes("Improve: Simplifying") && heard.at(-1) === "Improve: ended", heard.join("; "));
+    assert.deepEqual(heard, [...new Set(heard)]);
+    await settled(page);
+  },
+
   async "narrow, and at 200 %: all is within the page, and what happens is seen"({ page }) {
     for (const size of [{ width: 360, height: 740 }, { width: 320, height: 600 }, { width: 720, height: 430 }]) {
       await page.setViewportSize(size);
       await unfold(page);
+      // The picture follows by a moment.
+      await page.waitForFunction(() => document.querySelector("#canvas canvas").getBoundingClientRect().right <= document.documentElement.clientWidth + 1);
       const beyond = await page.evaluate(() => {
         const { clientWidth } = document.documentElement;
         return [...document.querySelectorAll("body *")]

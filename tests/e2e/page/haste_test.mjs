@@ -84,6 +84,58 @@ const steps = {
     assert.deepEqual(await complaints(page), []);
   },
 
+  async "methods begun, cancelled and begun again in one go end with the last one"({ page, address }) {
+    await page.fill("#improve-subdivisionSize", "4");
+    for (let n = 0; n < 8; ++n) {
+      await page.fill("#improve-faces", String(5000 + n));
+      await page.evaluate((verb) => {
+        const button = document.querySelector(`#${verb} button[type=submit]`);
+        for (let click = 0; click < 3; ++click) button.click();
+        document.querySelector("#work .progress button")?.click();
+      }, n % 2 ? "improve" : "control");
+      await page.waitForTimeout(40 * n);
+    }
+    await page.waitForSelector("#work .progress", { state: "detached" });
+    await page.waitForFunction(() => document.getElementById("stage").getAttribute("aria-busy") === "false");
+    for (const text of await complaints(page)) assert.match(text, /^CANCELLED/);
+    await run(page, "improve", { faces: 5100 });
+    await page.waitForFunction(() => Number(document.getElementById("canvas").dataset.result) === 5100, null, { timeout: 60000 });
+    await settled(page);
+    const { session, representation, result } = await shownOn(page);
+    const { representations } = await (await fetch(`${address}/v1/sessions/${session}`)).json();
+    assert.equal(representations.find((one) => one.id === representation).faces, result);
+    assert.deepEqual(await complaints(page), []);
+  },
+
+  async "what is not shown any more is not held any more"({ page, context }) {
+    const browser = await context.newCDPSession(page);
+    const held = async () => {
+      await browser.send("HeapProfiler.collectGarbage");
+      await browser.send("HeapProfiler.collectGarbage");
+      const { usedSize, backingStorageSize } = await browser.send("Runtime.getHeapUsage");
+      return { bytes: usedSize + backingStorageSize, nodes: (await browser.send("Memory.getDOMCounters")).nodes };
+    };
+    let before;
+    for (let n = 0; n < 20; ++n) {
+      await run(page, "improve", { subdivisionSize: 10, faces: 5000 + 10 * n });
+      await page.waitForFunction((faces) => Number(document.getElementById("canvas").dataset.result) === faces, 5000 + 10 * n, { timeout: 60000 });
+      await settled(page);
+      await slide(page, 0.5);
+      await settled(page);
+      if (n === 4) before = await held();
+    }
+    const after = await held();
+    assert.ok(after.bytes < before.bytes + 2e6, `${before.bytes} bytes after 5 results, ${after.bytes} after 20`);
+    assert.ok(after.nodes < before.nodes + 1000, `${before.nodes} nodes after 5 results, ${after.nodes} after 20`);
+    // Meshes are in two workers, of which each holds one.
+    assert.equal(page.workers().length, 2);
+    for (let n = 0; n < 3; ++n) await upload(page, join(data, "bracket.stl"));
+    assert.equal(page.workers().length, 2);
+    await run(page, "improve", { subdivisionSize: 4, tolerance: 0.2, faces: 4000 });
+    await settled(page);
+    assert.deepEqual(await complaints(page), []);
+  },
+
   async "a method cancelled while its mesh arrives leaves the one before, with its slider"({ page, address, proxy }) {
     const before = await shownOn(page);
     proxy.stall = true;

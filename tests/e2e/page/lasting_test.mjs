@@ -110,6 +110,12 @@ const steps = {
       await page.evaluate((id) => (location.hash = `session=${id}`), before.session);
       await settled(page);
     }
+    // There, but without a mesh.
+    const { id } = await (await fetch(`${address}/v1/sessions`, { method: "POST" })).json();
+    await page.evaluate((text) => (location.hash = `session=${text}`), id);
+    assert.match(await problem(page), /^EMPTY_INPUT session \w+ has no mesh/);
+    assert.equal(await page.textContent("#part"), `Session ${id} is not open`);
+    await fetch(`${address}/v1/sessions/${id}`, { method: "DELETE" });
     await page.evaluate((id) => (location.hash = `session=${id}&representation=r9`), before.session);
     assert.match(await problem(page), /^NOT_FOUND .*no representation r9/);
     await settled(page);
@@ -306,6 +312,55 @@ const steps = {
       assert.equal(representations.length, 1);
       assert.doesNotMatch(await other.textContent("#notes"), /cut off/);
       await other.close();
+    } finally {
+      await server.stop();
+    }
+  },
+
+  async "a token that is taken back is asked for anew, and another's session stays shut"({ page }) {
+    const file = join(place, "tokens");
+    const made = (who) => {
+      const lines = execFileSync(vsplitd, ["--new-token", `${who}:read-write`], { encoding: "utf8" }).trim().split("\n");
+      const line = lines.find((text) => text.startsWith(`${who} `));
+      return { line, token: lines.map((text) => text.split(/\s+/).at(-1)).find((word) => !line.includes(word)) };
+    };
+    const write = (...tokens) => writeFileSync(file, `${tokens.map(({ line }) => line).join("\n")}\n`, { mode: 0o600 });
+    const [first, second, bob] = [made("ann"), made("ann"), made("bob")];
+    write(first, bob);
+    const server = await startServer(vsplitd, "--token-file", file);
+    const give = async ({ token }) => {
+      await page.waitForSelector("#access:not([hidden])");
+      await page.fill("#token", token);
+      await page.press("#token", "Enter");
+      assert.equal(await page.inputValue("#token"), "");
+    };
+    try {
+      await page.goto(server.address);
+      await page.waitForSelector("#improve button[type=submit]");
+      await page.setInputFiles("#file", bracket);
+      await give(first);
+      await upload(page, bracket);
+      await run(page, "improve", { subdivisionSize: 8, tolerance: 0.2, faces: 6000 });
+      await settled(page);
+      const before = await shownOn(page);
+      write(second, bob);
+      // The file is read again within some seconds.
+      for (let wait = 0; wait < 100; ++wait) {
+        if ((await fetch(`${server.address}/v1/sessions`, { headers: { Authorization: `Bearer ${first.token}` } })).status === 401) break;
+        await page.waitForTimeout(200);
+      }
+      await page.click("#control button[type=submit]");
+      await page.waitForSelector("#problems p");
+      assert.match(await page.textContent("#problems p"), /^UNAUTHENTICATED/);
+      // Ann's session is not Bob's.
+      await give(bob);
+      assert.match(await problem(page), /^NOT_FOUND no session/);
+      assert.equal(await page.$eval("#canvas", ({ dataset }) => dataset.source), undefined);
+      await page.evaluate(() => sessionStorage.setItem("vsplit-token", "none such"));
+      await page.reload();
+      await give(second);
+      await settled(page);
+      assert.deepEqual(await shownOn(page), before);
     } finally {
       await server.stop();
     }

@@ -7,14 +7,14 @@ export class MeshWorker {
 
   private orders = 0;
 
-  /** `heard` is called when `busy` is up to date. */
-  constructor(heard: (news: News) => void) {
+  /** `heard` is called when `busy` is up to date; another may be put in its place. */
+  constructor(public heard: (news: News) => void) {
     this.worker.onmessage = ({ data }: MessageEvent<News>) => {
       if (data.kind === "idle") --this.orders;
-      heard(data);
+      this.heard(data);
     };
     this.tell({ kind: "token", token: access.token });
-    this.worker.onerror = (event) => heard({ kind: "problem", problem: { cause: "INTERNAL", detail: event.message || "the worker could not be started" } });
+    this.worker.onerror = (event) => this.heard({ kind: "problem", problem: { cause: "INTERNAL", detail: event.message || "the worker could not be started" } });
   }
 
   /** Whether it still has orders to carry out. */

@@ -11,6 +11,12 @@ const stages: Record<string, string> = {
   measure: "Measuring the deviation",
 };
 
+/** For those who listen, each stage once: not every number on the way. */
+function say(words: string): void {
+  const place = find("spoken");
+  if (place.textContent !== words) place.textContent = words;
+}
+
 /** A bar with what is done, and a button that ends it. `next`: where the focus goes with that button gone. */
 export class ProgressBar {
   private readonly bar = element("progress", { max: 1, value: 0, "aria-label": "Progress" });
@@ -26,12 +32,15 @@ export class ProgressBar {
   }
 
   show(stage: string, fraction: number, faces = 0): void {
-    this.words.textContent = this.title + (stages[stage] ?? stage) + (faces > 0 ? `, ${count(faces)} faces` : "");
+    const words = this.title + (stages[stage] ?? stage);
+    this.words.textContent = words + (faces > 0 ? `, ${count(faces)} faces` : "");
+    say(words);
     this.bar.value = fraction;
     if (!this.box.isConnected) this.place.append(this.box);
   }
 
   hide(): void {
+    if (this.box.isConnected) say(`${this.title}ended`);
     passFocus(this.box, this.next());
     this.box.remove();
   }

@@ -41,11 +41,10 @@ const spreads: [string, keyof Figures["spread"]][] = [
 /** Least, mean and largest of what faces and vertices are measured by. */
 export function spreadTable({ source, result, unit }: Columns): HTMLElement {
   const words = (value: number, of: keyof Figures["spread"]): string => (of === "stretch" ? value.toFixed(2) : figure(value, 3));
-  const text = (spread: Spread, of: keyof Figures["spread"]): string => 
-    withUnit(spread.map((value) => words(value, of)).join(" / "), of === "size" ? unit : "");
+  const text = (spread: Spread, of: keyof Figures["spread"]): string => spread.map((value) => words(value, of)).join(" / ");
   const cell = (figures: Figures | undefined, of: keyof Figures["spread"]): HTMLElement => element("td", {}, figures ? text(figures.spread[of], of) : "–");
   const body = element("tbody");
-  for (const [name, of] of spreads) body.append(element("tr", {}, element("th", { scope: "row" }, name), cell(source, of), cell(result, of)));
+  for (const [name, of] of spreads) body.append(element("tr", {}, element("th", { scope: "row" }, withUnit(name, of === "size" ? unit : "")), cell(source, of), cell(result, of)));
   const head = element("tr", {}, element("td"), element("th", { scope: "col" }, "Input"), element("th", { scope: "col" }, "Result"));
   return element("table", { class: "spread" }, element("caption", {}, "Min / mean / max"), element("thead", {}, head), body);
 }

@@ -10,6 +10,7 @@ export function startToken(given: () => void): void {
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     access.token = field.value.trim();
+    field.value = "";
     sessionStorage.setItem(key, access.token);
     passFocus(form, find("file"));
     form.hidden = true;

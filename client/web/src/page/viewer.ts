@@ -100,9 +100,21 @@ export class Viewer {
     this.cutaway = Infinity;
     this.marker.visible = false;
     this.moved = false;
-    const up = (this.camera.fov * Math.PI) / 360;
-    const narrower = Math.min(up, Math.atan(Math.tan(up) * this.camera.aspect));
-    this.aim(new Vector3(), new Vector3(0.55, 0.4, 1).normalize().multiplyScalar((radius * 1.02) / Math.sin(narrower)));
+    const away = new Vector3(0.55, 0.4, 1).normalize();
+    this.aim(new Vector3(), away.multiplyScalar(this.distanceFrom(away)));
+  }
+
+  /** How far away in a direction the whole box is in the picture, with a margin. */
+  private distanceFrom(away: Vector3): number {
+    const across = new Vector3().crossVectors(this.camera.up, away).normalize(), up = new Vector3().crossVectors(away, across);
+    const high = Math.tan((this.camera.fov * Math.PI) / 360), wide = high * this.camera.aspect;
+    let distance = 1e-9;
+    for (let n = 0; n < 8; ++n) {
+      const corner = new Vector3(n & 1 ? 1 : -1, n & 2 ? 1 : -1, n & 4 ? 1 : -1).multiply(this.half);
+      const outwards = Math.max(Math.abs(corner.dot(across)) / wide, Math.abs(corner.dot(up)) / high);
+      distance = Math.max(distance, corner.dot(away) + 1.08 * outwards);
+    }
+    return distance;
   }
 
   /** To a point of a mesh, so near that `size` is well seen: that of the faces there, where it is not said. What hides it is cut away. */

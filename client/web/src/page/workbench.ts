@@ -1,13 +1,14 @@
-import { create, fromJson, type JsonValue } from "@bufbuild/protobuf";
+import { fromJson, type JsonValue } from "@bufbuild/protobuf";
 import { RepresentationSchema, type Representation, type Session } from "../gen/vsplit/v1/meshing_pb";
 import type { ColourBy } from "../shared/colours";
-import { Problem } from "../shared/problem";
+import { Problem, problemText } from "../shared/problem";
 import type { Element, Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
 import { symbolOf } from "../shared/units";
 import { readPlace, writePlace, type Place } from "./address";
 import { deleteSession, getSession, meshPath } from "./api";
 import { Colouring } from "./colouring";
 import { find, refill } from "./dom";
+import { readFile, representationIn } from "./file_reader";
 import { forget, keep, keptOf, type Asked, type Verb } from "./kept";
 import { KeepAlive } from "./keep_alive";
 import { legend } from "./legend";
@@ -33,19 +34,6 @@ function mark(name: string): void {
 /** For measurements: what the last change of resolution took. */
 function stepText(patch: Patch): string {
   return `${patch.records} records, ${patch.positions.length / 9} faces, ${patch.milliseconds.toFixed(1)} ms`;
-}
-
-type FileNews = Extract<News, { kind: "file" }>;
-
-/** What a file says of itself, as far as it can be read, at the levels that it has. */
-function representationIn({ json, faces, facesMin, facesMax }: FileNews): Representation {
-  let said: Representation;
-  try {
-    said = fromJson(RepresentationSchema, json as JsonValue, { ignoreUnknownFields: true });
-  } catch {
-    said = create(RepresentationSchema);
-  }
-  return Object.assign(said, { faces, facesMin, facesMax });
 }
 
 /** What is open, a session or a .vsplit file: its two meshes, what is known of them, and what is shown. */
@@ -100,12 +88,14 @@ export class Workbench {
     let session: Session;
     try {
       session = await getSession(place.session);
+      if (readPlace().session !== place.session) return; // another was opened meanwhile
+      this.open(session, place.name ?? "", place.sample);
     } catch (error) {
-      if (!this.session && readPlace().session === place.session) this.close(`Session ${place.session} is not open`);
+      // What another token was shown is not for this one.
+      const gone = !this.session || problemText(error).cause === "NOT_FOUND";
+      if (gone && readPlace().session === place.session) this.close(`Session ${place.session} is not open`);
       throw error;
     }
-    if (readPlace().session !== place.session) return; // another was opened meanwhile
-    this.open(session, place.name ?? "", place.sample);
     this.again = keptOf(session.id).method;
     const named = session.representations.find((one) => one.id === place.representation);
     if (place.representation && !named) showProblem({ cause: "NOT_FOUND", detail: `the session has no representation ${place.representation}; shown is the newest, or the input` });
@@ -130,35 +120,15 @@ export class Workbench {
   }
 
   /** A .vsplit file, read here and held here alone. What was open before stays until it is read. Rejects with a Problem. */
-  openFile(file: File, read: (share: number) => void, signal: AbortSignal): Promise<void> {
-    return new Promise((resolve, reject) => {
-      const reader: MeshWorker = new MeshWorker((news) => {
-        if (reader === this.result) return this.hear("result", news);
-        if (news.kind === "progress") return read(news.fraction);
-        if (news.kind === "problem") {
-          reader.end();
-          return reject(new Problem(news.problem));
-        }
-        if (news.kind !== "file") return;
-        this.takeFile(reader, file.name, news);
-        resolve();
-      });
-      signal.addEventListener("abort", () => {
-        if (reader === this.result) return;
-        reader.end();
-        reject(new DOMException("cancelled", "AbortError"));
-      });
-      reader.tell({ kind: "colour", by: this.colouring.by, range: this.colouring.range });
-      reader.tell({ kind: "file", file });
-    });
-  }
-
-  private takeFile(reader: MeshWorker, name: string, news: FileNews): void {
+  async openFile(file: File, read: (share: number) => void, signal: AbortSignal): Promise<void> {
+    const { by, range } = this.colouring;
+    const { worker, news } = await readFile(file, { kind: "colour", by, range }, read, signal);
     const before = this.session?.id;
-    this.close(name);
+    this.close(file.name);
     this.giveUp(before);
     this.result.end();
-    this.result = reader;
+    this.result = worker;
+    worker.heard = (more) => this.hear("result", more);
     this.made = representationIn(news);
     this.faces = this.at = news.faces;
     this.surround(news.centre, news.half);
