@@ -1,6 +1,6 @@
 import { Vector3 } from "three";
 import { expect, test } from "vitest";
-import { sizeAt, vantage, type Drawn } from "../src/page/vantage";
+import { normalOfFaceAt, sizeAt, vantage, type Drawn } from "../src/page/vantage";
 
 type Corner = readonly [number, number, number];
 
@@ -71,4 +71,18 @@ test("the size at a place is that of the smallest face there", () => {
   expect(sizeAt(two, new Vector3(0, 0, 10), 1)).toBeCloseTo(Math.SQRT2, 6);
   expect(sizeAt(two, new Vector3(10, 0, 0), 1)).toBeCloseTo(20 * Math.SQRT2, 4);
   expect(sizeAt(two, new Vector3(0, 0, 0), 1)).toBeUndefined();
+});
+
+test("a face that is named is looked at, however small it is beside what is around it", () => {
+  const plate = drawn(box([0, 0, 0], [50, 50, 0.5]));
+  const rim = new Vector3(50, 50 / 3, -0.5 / 3); // the middle of one of its faces
+  const normal = normalOfFaceAt(plate, rim)!;
+  expect(normal.x).toBeCloseTo(1, 9);
+  const now = new Vector3(0, 0.2, 1).normalize();
+  const { away, free } = vantage(plate, rim, 2, 20, now, normal);
+  expect(free).toBe(true);
+  expect(away.x).toBeGreaterThan(0.8);
+  // One that is next to nothing has no side to look at.
+  const sliver = Float32Array.from([0, 0, 0, 1, 0, 0, 0.5, 1e-5, 0]);
+  expect(normalOfFaceAt({ positions: sliver, floats: 9 }, new Vector3())).toBeUndefined();
 });

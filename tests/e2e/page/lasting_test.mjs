@@ -19,7 +19,7 @@ const problem = async (page) => {
 };
 const drawn = (page) => page.waitForFunction(() => document.getElementById("canvas").dataset.source);
 /** Some seconds of work. */
-const long = { subdivisionSize: 2.5, tolerance: 0.2, faces: 30000 };
+const long = { subdivisionSize: 3.5, tolerance: 0.2, faces: 15000 };
 
 const steps = {
   async "what was typed is there after a reload, for each session its own"({ page }) {
@@ -64,7 +64,7 @@ const steps = {
     await page.waitForFunction(() => location.hash.includes("representation=r2"), null, { timeout: 120000 });
     await settled(page);
     const shown = await shownOn(page);
-    assert.equal(shown.result, 30000);
+    assert.equal(shown.result, 15000);
     assert.equal((await sessionOf(address, shown.session)).representations.length, 2);
     // It is over: another reload asks for nothing.
     const asked = [];
@@ -89,7 +89,7 @@ const steps = {
   },
 
   async "a method that was cancelled is not asked for again"({ page }) {
-    await run(page, "improve", { ...long, faces: 25000 });
+    await run(page, "improve", { ...long, faces: 14000 });
     await page.waitForFunction(() => /Simplifying|Evaluating/.test(document.getElementById("work").textContent));
     await page.click("#work .progress button");
     assert.match(await problem(page), /^CANCELLED/);
@@ -307,7 +307,7 @@ const steps = {
       await page.waitForFunction(() => /^Improve, asked for anew: /.test(document.getElementById("work").textContent));
       await other.click('#notes button:text("Run Improve again")');
       await Promise.all([settled(page, 120000), settled(other, 120000)]);
-      assert.deepEqual([(await shownOn(page)).result, (await shownOn(other)).result], [30000, 30000]);
+      assert.deepEqual([(await shownOn(page)).result, (await shownOn(other)).result], [15000, 15000]);
       const { representations } = await sessionOf(server.address, (await shownOn(page)).session);
       assert.equal(representations.length, 1);
       assert.doesNotMatch(await other.textContent("#notes"), /cut off/);
@@ -360,6 +360,7 @@ const steps = {
       await page.reload();
       await give(second);
       await settled(page);
+      await drawn(page);
       assert.deepEqual(await shownOn(page), before);
     } finally {
       await server.stop();

@@ -1,5 +1,5 @@
 import { fromJson, type DescMessage, type JsonValue, type MessageShape } from "@bufbuild/protobuf";
-import { QualitySchema, SessionSchema, type Quality, type Session } from "../gen/vsplit/v1/meshing_pb";
+import { SessionSchema, type Session } from "../gen/vsplit/v1/meshing_pb";
 import { fields } from "../shared/access";
 import { problemFrom, problemOf, unreachable } from "../shared/problem";
 
@@ -52,13 +52,6 @@ export const getSession = (id: string): Promise<Session> => get(SessionSchema, `
 export async function deleteSession(id: string): Promise<void> {
   const response = await fetch(`/v1/sessions/${encodeURIComponent(id)}`, { method: "DELETE", headers: fields() });
   if (!response.ok) throw await problemOf(response);
-}
-
-export function getQuality(session: string, representation: string, faces: number, worst: number): Promise<Quality> {
-  const query = new URLSearchParams({ worst: String(worst) });
-  if (representation) query.set("representation", representation);
-  if (representation && faces > 0) query.set("faces", String(faces));
-  return get(QualitySchema, `/v1/sessions/${session}/quality?${query}`);
 }
 
 /** Where a mesh file is. `representation` "" is the upload. */

@@ -102,16 +102,34 @@ function meets({ positions: p, floats }: Drawn, { x: ox, y: oy, z: oz }: Vector3
 
 const axes = [0, 1, 2].flatMap((axis) => [1, -1].map((sign) => new Vector3().setComponent(axis, sign)));
 
+/** The normal of the face whose middle is nearest to a place; undefined where it has next to no area. O(faces). */
+export function normalOfFaceAt(drawn: Drawn, { x, y, z }: Vector3): Vector3 | undefined {
+  const p = drawn.positions;
+  let best = -1, least = Infinity;
+  for (let at = 0; at < drawn.floats; at += 9) {
+    const dx = (p[at]! + p[at + 3]! + p[at + 6]!) / 3 - x, dy = (p[at + 1]! + p[at + 4]! + p[at + 7]!) / 3 - y, dz = (p[at + 2]! + p[at + 5]! + p[at + 8]!) / 3 - z;
+    const square = dx * dx + dy * dy + dz * dz;
+    if (square >= least) continue;
+    least = square;
+    best = at;
+  }
+  if (best < 0) return undefined;
+  const { a, b, c } = faceAt(drawn, best);
+  const longest = Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a));
+  return triangle.getArea() > 1e-4 * longest * longest ? triangle.getNormal(new Vector3()) : undefined;
+}
+
 /**
- * Where to look at a place from, at a distance: across the surface that is within `reach` of it, as near to where the eye is `now` as
- * that allows, and so that nothing stands between, where there is such a way. O(faces).
+ * Where to look at a place from, at a distance: at `face`, the normal of what is to be seen, where that is given, else across the
+ * surface that is within `reach` of it; as near to where the eye is `now` as that allows, and so that nothing stands between, where
+ * there is such a way. O(faces).
  */
-export function vantage(drawn: Drawn, place: Vector3, reach: number, distance: number, now: Vector3): Vantage {
+export function vantage(drawn: Drawn, place: Vector3, reach: number, distance: number, now: Vector3, face?: Vector3): Vantage {
   const across = facing(drawn, place, reach) ?? now;
   // Not quite along the normal: from there a surface looks flat.
   const leaned = (direction: Vector3): Vector3 => now.clone().multiplyScalar(0.45).addScaledVector(direction, now.dot(direction) < -0.9 ? 2 : 1).normalize();
   const back = across.clone().negate();
-  const ways = [leaned(across), across, leaned(back), back, now, ...axes].map((way) => way.clone().normalize());
+  const ways = [...(face ? [leaned(face), face] : []), leaned(across), across, leaned(back), back, now, ...axes].map((way) => way.clone().normalize());
   const away = ways.find((way) => !meets(drawn, place, way, 0.05 * reach, distance));
   return { away: away ?? ways[0]!, free: away !== undefined };
 }

@@ -4,7 +4,7 @@ import type { Patch, Point } from "../shared/protocol";
 import { Faces } from "./faces";
 import { Marker } from "./marker";
 import { faceMaterial } from "./material";
-import { sizeAt, vantage } from "./vantage";
+import { normalOfFaceAt, sizeAt, vantage } from "./vantage";
 
 export type Slot = "source" | "result";
 export type View = Slot | "both";
@@ -117,7 +117,7 @@ export class Viewer {
     return distance;
   }
 
-  /** To a point of a mesh, so near that `size` is well seen: that of the faces there, where it is not said. What hides it is cut away. */
+  /** To a point of a mesh: the middle of a face of this size, or where it is not said whatever is there. What hides it is cut away. */
   fly(slot: Slot, point: Point, size?: number): void {
     if (!this.sees(slot)) this.show(slot);
     const target = new Vector3(...point);
@@ -128,7 +128,8 @@ export class Viewer {
     // Of a large face what is around it is mostly the part.
     const distance = Math.max(Math.min(12 * seen, Math.max(3 * seen, radius)), radius * 0.002);
     const now = this.camera.position.clone().sub(this.controls.target).normalize();
-    const { away, free } = vantage(drawn, target, distance / 10, distance, now);
+    const face = size === undefined ? undefined : normalOfFaceAt(drawn, target);
+    const { away, free } = vantage(drawn, target, distance / 10, distance, now, face);
     this.cutaway = free ? Infinity : distance / 10;
     this.marker.put(target);
     this.moved = true;
