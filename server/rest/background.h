@@ -4,30 +4,20 @@
 #include <vector>
 
 #include "rest/asio.h"
-#include "service/thread_priority.h"
 
 namespace vsplit::rest {
 
-/// Threads for what is heavy; those that speak to clients go before them.
+/// Threads for what is heavy. On Linux those that speak to clients go before them. They call nothing that starts threads, which
+/// would be as nice: gRPC, for example.
 class Background {
 public:
     /// \pre threads > 0.
-    explicit Background(unsigned threads) {
-        for (unsigned i = 0; i < threads; ++i) {
-            threads_.emplace_back([this] {
-                service::set_priority(service::ThreadPriority::kBackground);
-                context_.run();
-            });
-        }
-    }
+    explicit Background(unsigned threads);
     Background(const Background&) = delete;
     Background& operator=(const Background&) = delete;
 
     /// Returns when everything that was begun is done.
-    ~Background() {
-        work_.reset();
-        for (std::thread& thread : threads_) thread.join();
-    }
+    ~Background();
 
     /// Runs `work` on one of them, so that no connection waits for it, and goes on where the caller was.
     template <class Work>

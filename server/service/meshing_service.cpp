@@ -22,9 +22,9 @@ MeshingService::MeshingService(const ServiceOptions& options, std::unique_ptr<Se
     : options_(options),
       memory_(options.limits.memory_bytes),
       archive_(std::move(archive)),
-      methods_(options.workers == 0 ? cores() : options.workers, ThreadPriority::kBackground),
-      errands_(std::max(2U, cores()), ThreadPriority::kBackground),
-      intake_(std::max(2U, cores()), ThreadPriority::kBackground),
+      methods_(options.workers == 0 ? cores() : options.workers),
+      errands_(std::max(2U, cores())),
+      intake_(std::max(2U, cores())),
       disk_(kDiskThreads),
       sessions_({options_, memory_, *archive_, methods_}),
       sweeper_(sweep_interval(options.session_ttl), [this] { sweep(); }) {}

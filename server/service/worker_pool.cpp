@@ -6,15 +6,10 @@
 
 namespace vsplit::service {
 
-WorkerPool::WorkerPool(unsigned threads, ThreadPriority priority) {
+WorkerPool::WorkerPool(unsigned threads) {
     assert(threads > 0);
     threads_.reserve(threads);
-    for (unsigned i = 0; i < threads; ++i) {
-        threads_.emplace_back([this, priority] {
-            set_priority(priority);
-            work();
-        });
-    }
+    for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
 }
 
 WorkerPool::~WorkerPool() { shutdown(); }

@@ -10,8 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "service/thread_priority.h"
-
 namespace vsplit::service {
 
 /// A fixed number of threads that run tasks in order of arrival.
@@ -23,7 +21,7 @@ public:
     using Ticket = std::uint64_t;
 
     /// \pre threads > 0.
-    explicit WorkerPool(unsigned threads, ThreadPriority priority = ThreadPriority::kUsual);
+    explicit WorkerPool(unsigned threads);
     ~WorkerPool();
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
