@@ -24,6 +24,11 @@ namespace {
 constexpr std::uint32_t kDefaultWorst = 20;
 constexpr std::uint32_t kMostWorst = 1000;
 
+/// \pre the answer is not sent yet.
+service::StillWanted wanted_by(const grpc::CallbackServerContext& context) {
+    return [&context] { return !context.IsCancelled(); };
+}
+
 Error nobody_waits() { return {Cause::kCancelled, "the client is gone or its deadline has passed", ""}; }
 
 void finish(grpc::ServerUnaryReactor* reactor, const RpcWatch& watch, const MeshingRpcs::Answer& answer) {
@@ -34,18 +39,19 @@ void finish(grpc::ServerUnaryReactor* reactor, const RpcWatch& watch, const Mesh
     reactor->Finish(status);
 }
 
-Status create_session(service::MeshingService& service, const service::Caller& caller, const v1::CreateSessionRequest& request,
-                      v1::Session& response) {
+Status create_session(service::MeshingService& service, const service::Caller& caller, const grpc::CallbackServerContext& context,
+                      const v1::CreateSessionRequest& request, v1::Session& response) {
     const Expected<std::optional<MeshFormat>> format = wire::from_proto(request.format());
     if (!format) return format.error();
     const Expected<std::optional<RepairMode>> repair = wire::from_proto(request.repair());
     if (!repair) return repair.error();
     const Expected<std::optional<LengthUnit>> unit = wire::from_proto(request.unit());
     if (!unit) return unit.error();
+    const service::MeshSettings settings{*format, request.weld(), *repair, *unit};
     const Expected<service::SessionSnapshot> created =
         request.mesh().empty()
             ? service.create_session(caller)
-            : service.create_session(std::as_bytes(std::span(request.mesh())), {*format, request.weld(), *repair, *unit}, caller);
+            : service.create_session(std::as_bytes(std::span(request.mesh())), settings, caller, wanted_by(context));
     if (!created) return created.error();
     response = to_proto(*created);
     return Done{};
@@ -104,8 +110,8 @@ Status list_features(service::MeshingService& service, const service::Caller& ca
 Status remove_features(service::MeshingService& service, const service::Caller& caller,
                        const grpc::CallbackServerContext& context, const v1::RemoveFeaturesRequest& request,
                        v1::RemoveFeaturesResponse& response) {
-    const auto still_wanted = [&context] { return !context.IsCancelled(); };
-    const auto done = service::remove_features_of(service, request.session(), wire::from_proto(request), still_wanted, caller);
+    const auto done =
+        service::remove_features_of(service, request.session(), wire::from_proto(request), wanted_by(context), caller);
     if (!done) return done.error();
     response = wire::to_proto(done->made, done->source->report);
     return Done{};
@@ -145,8 +151,8 @@ auto* MeshingRpcs::stream(Context& context, const char* method, const Request& r
 grpc::ServerUnaryReactor* MeshingRpcs::CreateSession(Context* context, const v1::CreateSessionRequest* request,
                                                      v1::Session* response) {
     return answer_later(context, RpcWatch(ledger_, *context, "CreateSession", ""), &service::MeshingService::intake,
-                        [this, request, response](const service::Caller& caller) {
-                            return create_session(service_, caller, *request, *response);
+                        [this, context, request, response](const service::Caller& caller) {
+                            return create_session(service_, caller, *context, *request, *response);
                         });
 }
 

@@ -49,11 +49,12 @@ Expected<SessionSnapshot> MeshingService::create_session(const Caller& caller) {
 }
 
 Expected<SessionSnapshot> MeshingService::create_session(std::span<const std::byte> bytes, const MeshSettings& settings,
-                                                         const Caller& caller) {
+                                                         const Caller& caller, const StillWanted& wanted) {
     if (Status room = sessions_.require_room(caller.owner); !room) return room.error();
     if (Status ok = check_settings(settings); !ok) return ok.error();
-    Expected<std::shared_ptr<const SourceMesh>> source = read_source(bytes, settings, options_.limits, memory_);
+    Expected<std::shared_ptr<const SourceMesh>> source = read_source(bytes, settings, options_.limits, memory_, wanted);
     if (!source) return source.error();
+    if (!wanted()) return ExecutionContext::cancelled_error();
     const Expected<std::shared_ptr<Session>> created = sessions_.create(*std::move(source), caller.owner);
     if (!created) return created.error();
     return (*created)->snapshot();

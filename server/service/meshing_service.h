@@ -57,7 +57,7 @@ public:
     /// A session with a mesh, or none at all. Heavy: for `intake`. \return LIMIT_EXCEEDED, what `check_settings` and
     /// `read_source` return.
     [[nodiscard]] Expected<SessionSnapshot> create_session(std::span<const std::byte> bytes, const MeshSettings& settings,
-                                                           const Caller& caller = {});
+                                                           const Caller& caller = {}, const StillWanted& wanted = always_wanted);
 
     /// \return NOT_FOUND, what Upload::begin returns.
     [[nodiscard]] Expected<Upload> begin_upload(std::string_view session, const UploadSettings& settings,

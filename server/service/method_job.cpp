@@ -6,8 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include "service/bounded_work.h"
 #include "service/guarded.h"
-#include "service/job_time.h"
 #include "service/memory_use.h"
 #include "vsplit/method/control.h"
 #include "vsplit/method/improve.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "service/bounded_work.h"
 #include "service/guarded.h"
-#include "service/job_time.h"
 #include "service/memory_use.h"
 
 namespace vsplit::service {
@@ -18,19 +18,16 @@ Expected<std::shared_ptr<const SourceMesh>> source_of(const Session& session) {
 
 /// `remove_features` within the limits that methods have.
 Expected<FeaturelessMesh> remove_within_limits(MeshingService& service, const TriangleMesh& mesh, const FeatureRemoval& removal,
-                                               const std::function<bool()>& still_wanted) {
+                                               const StillWanted& wanted) {
     const Limits& limits = service.options().limits;
     constexpr bool kWithRepair = true;  // its new faces are improved by what repairs are
     const std::string what = "removing features of " + std::to_string(mesh.face_count()) + " faces";
     const Expected<MemoryBudget::Share> room = service.memory().reserve(memory_to_read(mesh.face_count(), kWithRepair), what);
     if (!room) return room.error();
-    ExecutionContext context([&](const Progress& /*any*/) {
-        if (!still_wanted()) context.cancel();
-    });
-    context.cancel_at(ExecutionContext::Clock::now() + std::chrono::seconds(limits.job_seconds));
-    Expected<FeaturelessMesh> made = remove_features(mesh, removal, context);
-    if (!made && context.late()) return took_too_long(what, limits);
-    if (made && made->mesh.face_count() > limits.faces) {
+    const BoundedWork work(what, limits, wanted);
+    Expected<FeaturelessMesh> made = remove_features(mesh, removal, work.context());
+    if (!made) return work.explained(made.error());
+    if (made->mesh.face_count() > limits.faces) {
         return Error{Cause::kLimitExceeded,
                      "without these features the mesh has " + std::to_string(made->mesh.face_count()) +
                          " faces; the server's limit max_faces is " + std::to_string(limits.faces),
@@ -57,7 +54,7 @@ Expected<FeaturesFound> list_features_of(MeshingService& service, std::string_vi
 }
 
 Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::string_view session, const FeatureRemoval& removal,
-                                             const std::function<bool()>& still_wanted, const Caller& caller) {
+                                             const StillWanted& wanted, const Caller& caller) {
     const Expected<std::shared_ptr<Session>> found = service.sessions().find(session, caller.owner);
     if (!found) return found.error();
     const std::shared_ptr<void> held = Session::hold(*found);
@@ -67,11 +64,11 @@ Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::strin
     return guarded([&]() -> Expected<FeaturesRemoved> {
         const Expected<std::shared_ptr<const TriangleMesh>> whole = (*before)->mesh->get();
         if (!whole) return whole.error();
-        Expected<FeaturelessMesh> made = remove_within_limits(service, **whole, removal, still_wanted);
+        Expected<FeaturelessMesh> made = remove_within_limits(service, **whole, removal, wanted);
         if (!made) return made.error();
         if (made->removed.empty()) return FeaturesRemoved{*std::move(made), *before};
         MeshReport report = inspect(made->mesh);
-        if (!still_wanted()) return ExecutionContext::cancelled_error();
+        if (!wanted()) return ExecutionContext::cancelled_error();
         report.unit = (*before)->report.unit;
         auto source = make_source(std::move(made->mesh), std::move(report), service.memory());
         if (Status set = (*found)->replace_source(*before, source); !set) return set.error();

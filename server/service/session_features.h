@@ -1,8 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <string_view>
 
+#include "service/bounded_work.h"
 #include "service/meshing_service.h"
 #include "vsplit/shapes/remove_features.h"
 #include "vsplit/shapes/shape_features.h"
@@ -24,10 +24,10 @@ struct FeaturesRemoved {
 };
 
 /// Puts the upload without some features in its place and drops the representations; where none goes, nothing changes, and where
-/// it is not `still_wanted`, which is asked now and then. Heavy: for `intake`. \return NOT_FOUND, NOT_READY, BUSY, also where the
+/// it is not `wanted` any more. Heavy: for `intake`. \return NOT_FOUND, NOT_READY, BUSY, also where the
 /// mesh was replaced meanwhile; LIMIT_EXCEEDED (memory, time, faces); what `remove_features` returns.
 [[nodiscard]] Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::string_view session,
-                                                           const FeatureRemoval& removal,
-                                                           const std::function<bool()>& still_wanted, const Caller& caller = {});
+                                                           const FeatureRemoval& removal, const StillWanted& wanted,
+                                                           const Caller& caller = {});
 
 }  // namespace vsplit::service

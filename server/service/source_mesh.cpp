@@ -24,7 +24,7 @@ std::shared_ptr<const SourceMesh> make_source(TriangleMesh mesh, MeshReport repo
 }
 
 Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byte> bytes, const MeshSettings& settings,
-                                                        const Limits& limits, MemoryBudget& budget) {
+                                                        const Limits& limits, MemoryBudget& budget, const StillWanted& wanted) {
     return guarded([&]() -> Expected<std::shared_ptr<const SourceMesh>> {
         const Expected<MemoryBudget::Share> room =
             budget.reserve(memory_to_read(bytes, settings.repair.has_value()), "reading this mesh");
@@ -39,8 +39,9 @@ Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byt
         };
         Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces, settings.unit, make_room});
         if (!read) return read.error();
-        Expected<MeshReport> report = inspect_source(read->mesh, read->weld, settings.repair);
-        if (!report) return report.error();
+        const BoundedWork work("reading this mesh", limits, wanted);
+        Expected<MeshReport> report = inspect_source(read->mesh, read->weld, settings.repair, work.context());
+        if (!report) return work.explained(report.error());
         report->unit = read->unit;
         return make_source(std::move(read->mesh), *std::move(report), budget);
     });

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "service/bounded_work.h"
 #include "service/kept.h"
 #include "service/limits.h"
 #include "vsplit/base/expected.h"
@@ -37,9 +38,10 @@ struct SourceMesh {
 [[nodiscard]] std::shared_ptr<const SourceMesh> make_source(TriangleMesh mesh, MeshReport report, MemoryBudget& budget);
 
 /// Reads, welds, repairs and inspects. Heavy: for a worker, not for a thread that others wait for.
-/// \return what `read_mesh` returns; LIMIT_EXCEEDED names the server's limit.
+/// \return what `read_mesh` returns; LIMIT_EXCEEDED names the server's limit; CANCELLED where it is not `wanted` any more.
 [[nodiscard]] Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byte> bytes,
                                                                       const MeshSettings& settings, const Limits& limits,
-                                                                      MemoryBudget& budget);
+                                                                      MemoryBudget& budget,
+                                                                      const StillWanted& wanted = always_wanted);
 
 }  // namespace vsplit::service

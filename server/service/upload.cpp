@@ -63,9 +63,10 @@ Expected<SessionSnapshot> Upload::commit(const std::function<bool()>& still_want
     }
     const Expected<FileMapping> mapped = file_.map();
     if (!mapped) return mapped.error();
-    Expected<std::shared_ptr<const SourceMesh>> source = read_source(mapped->bytes(), settings_.mesh, limits_, *memory_);
-    if (!source) return source.error();
+    Expected<std::shared_ptr<const SourceMesh>> source =
+        read_source(mapped->bytes(), settings_.mesh, limits_, *memory_, still_wanted);
     if (!still_wanted()) return Error{Cause::kCancelled, "the upload was cut off; the session is as it was", ""};
+    if (!source) return source.error();
     if (Status set = session_->set_source(*source); !set) return set.error();
     session_->touch();
     return session_->snapshot();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -269,6 +270,26 @@ TEST(RepairMeshTest, EveryBrokenSoupBecomesAManifold) {
             EXPECT_TRUE(manifold) << "seed " << seed << ": " << manifold.error().message;
         }
     }
+}
+
+TEST(RepairMeshTest, StopsWhereverItIsCancelled) {
+    const TriangleMesh mesh = test::joined(test::cube(), test::cube(), Vec3(1.001, 0, 0));  // FULL stitches them
+    const RepairedMesh whole = repaired(mesh, kFull);
+    std::size_t stops = 0;
+    for (bool done = false; !done; ++stops) {
+        ASSERT_LT(stops, 1000U) << "it is asked again and again";
+        std::atomic<std::size_t> asked = 0;
+        ExecutionContext context;
+        context.cancel_when([&] { return asked++ >= stops; });
+        const Expected<RepairedMesh> result = repair_mesh(mesh, kFull, context);
+        done = result.has_value();
+        if (done) {
+            EXPECT_EQ(result->mesh, whole.mesh);
+        } else {
+            EXPECT_EQ(result.error().cause, Cause::kCancelled);
+        }
+    }
+    EXPECT_GT(stops, 5U);
 }
 
 TEST(RepairMeshTest, OptionsOutOfRangeAreRefused) {

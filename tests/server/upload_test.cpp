@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -49,6 +50,36 @@ TEST_F(UploadTest, PutsTheMeshIntoTheSession) {
     ASSERT_TRUE(session) << session.error().message;
     EXPECT_EQ(**session->source->mesh->get(), test::cube());
     EXPECT_TRUE(session->source->report.closed);
+}
+
+TEST_F(UploadTest, AClientThatLeavesEndsTheRepair) {
+    UploadSettings settings;
+    settings.mesh.repair = RepairMode::kFull;
+    const auto commit_asked = [&](int times) {
+        Expected<Upload> upload = Upload::begin(session_, settings, options_, memory_);
+        EXPECT_TRUE(upload && upload->append(0, bytes_of(file_)));
+        std::atomic<int> left = times;
+        return upload->commit([&] { return left-- > 0; });
+    };
+    for (int times = 0; times < 5; ++times) {
+        const Expected<SessionSnapshot> session = commit_asked(times);
+        ASSERT_FALSE(session) << times;
+        EXPECT_EQ(session.error().cause, Cause::kCancelled);
+        EXPECT_TRUE(unharmed());
+    }
+    EXPECT_TRUE(commit_asked(1'000'000));
+}
+
+TEST_F(UploadTest, RepairIsWorkWhoseTimeEnds) {
+    options_.limits.job_seconds = 0;
+    UploadSettings settings;
+    settings.mesh.repair = RepairMode::kFull;
+    Expected<Upload> upload = Upload::begin(session_, settings, options_, memory_);
+    ASSERT_TRUE(upload && upload->append(0, bytes_of(file_)));
+    const Expected<SessionSnapshot> session = upload->commit(always);
+    ASSERT_FALSE(session);
+    EXPECT_THAT(session.error().message, HasSubstr("max_job_seconds"));
+    EXPECT_TRUE(unharmed());
 }
 
 TEST_F(UploadTest, RefusesADeclaredSizeOverTheLimitBeforeAnyByte) {

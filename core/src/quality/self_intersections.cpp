@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -89,7 +90,7 @@ std::uint64_t count_pairs(const std::vector<Face>& faces, int axis) {
 
 }  // namespace
 
-Expected<std::vector<FacePair>> find_self_intersections(const TriangleMesh& mesh) {
+Expected<std::vector<FacePair>> find_self_intersections(const TriangleMesh& mesh, const ExecutionContext& context) {
     int axis = 0;
     const BoundingBox box = bounding_box(mesh);
     if (!box.empty()) (box.max - box.min).maxCoeff(&axis);
@@ -102,13 +103,18 @@ Expected<std::vector<FacePair>> find_self_intersections(const TriangleMesh& mesh
                      ""};
     }
     std::vector<std::vector<FacePair>> found(faces.size());  // a place of its own for each face
+    std::atomic<bool> stopped = false;
     tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
+        constexpr std::size_t kLookEvery = 64;  // faces, between two looks for a cancel
+        if (i % kLookEvery == 0 && context.cancelled()) stopped = true;
+        if (stopped) return;
         for (std::size_t j = i + 1; j < faces.size() && faces[j].min[axis] <= faces[i].max[axis]; ++j) {
             if (!intersect(faces[i], faces[j])) continue;
             const auto [first, second] = std::minmax(faces[i].index, faces[j].index);
             found[i].push_back({first, second});
         }
     });
+    if (stopped) return ExecutionContext::cancelled_error();
     std::vector<FacePair> pairs;
     for (const std::vector<FacePair>& of_face : found) pairs.insert(pairs.end(), of_face.begin(), of_face.end());
     std::sort(pairs.begin(), pairs.end());

@@ -75,13 +75,14 @@ std::vector<Triangle> fill(TriangleMesh& mesh, const std::vector<std::uint32_t>&
 
 }  // namespace
 
-void fill_holes(Draft& draft, double size) {
+void fill_holes(Draft& draft, double size, const ExecutionContext& context) {
     TriangleMesh& mesh = draft.mesh;
     const std::vector<Loop> loops = boundary_loops(mesh);
     if (loops.empty()) return;
     const Pieces pieces = find_pieces(mesh);
     const Edges edges = edges_between_borders(mesh, loops);
     for (const Loop& loop : loops) {
+        if (context.cancelled()) return;
         const std::uint32_t beside = face_of(loop.front());
         const double extent = box_diagonal(mesh, loop);
         const bool is_rim = extent > kOuterShare * pieces.box[pieces.of_face[beside]].diagonal();

@@ -46,31 +46,35 @@ void make_manifold(Draft& draft) {
 }
 
 /// The steps in the order that the header tells.
-void repair(Draft& draft, const RepairOptions& options) {
+void repair(Draft& draft, const RepairOptions& options, const ExecutionContext& context) {
     const double diagonal = bounding_box(draft.mesh).diagonal();
     const bool full = options.mode == RepairMode::kFull;
     weld_vertices(draft, options.weld);
+    if (context.cancelled()) return;
     draft.drop_collapsed();
     drop_duplicates(draft);
     const double stitch = options.stitch.value_or(kStitchShare * diagonal);
     if (full && stitch > 0) {
-        stitch_borders(draft, stitch);
+        stitch_borders(draft, stitch, context);
         draft.drop_collapsed();
         drop_duplicates(draft);
     }
+    if (context.cancelled()) return;
     make_manifold(draft);
+    if (context.cancelled()) return;
     remove_degenerate(draft);
+    if (context.cancelled()) return;
     make_manifold(draft);
     if (full) {
         drop_specks(draft, options.speck_size.value_or(kSpeckShare * diagonal));
-        fill_holes(draft, options.hole_size.value_or(kHoleShare * diagonal));
+        fill_holes(draft, options.hole_size.value_or(kHoleShare * diagonal), context);
         face_outward(draft);
     }
 }
 
 /// Pairs of faces that pass through each other.
-void report_intersections(const TriangleMesh& mesh, std::vector<Finding>& findings) {
-    const auto pairs = find_self_intersections(mesh);
+void report_intersections(const TriangleMesh& mesh, std::vector<Finding>& findings, const ExecutionContext& context) {
+    const auto pairs = find_self_intersections(mesh, context);
     if (!pairs) {
         findings.push_back({Finding::Kind::kSelfIntersection, 0, pairs.error().message, {}, {}});
         return;
@@ -97,11 +101,12 @@ Status check_options(const RepairOptions& options) {
     return check_length(options.speck_size, "speck_size");
 }
 
-Expected<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
+Expected<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options, const ExecutionContext& context) {
     if (Status valid = check_options(options); !valid) return valid.error();
     Draft draft(mesh);
     if (options.mode != RepairMode::kNone) {
-        repair(draft, options);
+        repair(draft, options, context);
+        if (context.cancelled()) return ExecutionContext::cancelled_error();
         draft.mesh.regions.clear();
         for (const std::uint32_t parent : draft.parent) {
             if (!mesh.regions.empty()) draft.mesh.regions.push_back(mesh.regions[parent]);
@@ -111,13 +116,15 @@ Expected<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions
     RepairedMesh repaired{std::move(draft.mesh), std::move(draft.parent), draft.changes.take()};
     const MeshReport left = inspect(repaired.mesh);
     repaired.findings.insert(repaired.findings.end(), left.findings.begin(), left.findings.end());
-    report_intersections(repaired.mesh, repaired.findings);
+    report_intersections(repaired.mesh, repaired.findings, context);
+    if (context.cancelled()) return ExecutionContext::cancelled_error();
     return repaired;
 }
 
-Expected<MeshReport> inspect_source(TriangleMesh& mesh, const WeldCounts& weld, std::optional<RepairMode> repair) {
+Expected<MeshReport> inspect_source(TriangleMesh& mesh, const WeldCounts& weld, std::optional<RepairMode> repair,
+                                    const ExecutionContext& context) {
     if (!repair) return inspect(mesh, weld);
-    Expected<RepairedMesh> repaired = repair_mesh(mesh, {.mode = *repair});
+    Expected<RepairedMesh> repaired = repair_mesh(mesh, {.mode = *repair}, context);
     if (!repaired) return repaired.error();
     mesh = std::move(repaired->mesh);
     MeshReport report = inspect(mesh, weld);

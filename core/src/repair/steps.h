@@ -1,16 +1,18 @@
 #pragma once
 
 #include "repair/draft.h"
+#include "vsplit/base/execution_context.h"
 
 namespace vsplit {
 
-/// The steps of `repair_mesh`, which says what each does. All are deterministic.
+/// The steps of `repair_mesh`, which says what each does. All are deterministic; those that take a
+/// context leave the draft somewhere on the way when it is cancelled.
 
 /// Of two faces that look opposite ways on the same three vertices neither is kept, unless they are a sheet. O(faces log faces).
 void drop_duplicates(Draft& draft);
 
 /// Joins borders no further apart than `tolerance` (length), the closest first. \pre tolerance > 0.
-void stitch_borders(Draft& draft, double tolerance);
+void stitch_borders(Draft& draft, double tolerance, const ExecutionContext& context);
 
 /// Makes faces agree across edges of two faces; fewest turned in a piece. What cannot agree (a Moebius band) stays. O(faces log
 /// faces).
@@ -31,6 +33,6 @@ void remove_degenerate(Draft& draft);
 void drop_specks(Draft& draft, double size);
 
 /// Fills holes whose box has a diagonal of at most `size`. \pre manifold. See `repair_mesh`.
-void fill_holes(Draft& draft, double size);
+void fill_holes(Draft& draft, double size, const ExecutionContext& context);
 
 }  // namespace vsplit

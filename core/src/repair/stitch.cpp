@@ -179,11 +179,12 @@ private:
 
 }  // namespace
 
-void stitch_borders(Draft& draft, double tolerance) {
+void stitch_borders(Draft& draft, double tolerance, const ExecutionContext& context) {
     std::uint64_t tests = 0;
+    const auto going = [&] { return tests <= kMostTests && !context.cancelled(); };
     for (const Pass pass : {Pass::kCopies, Pass::kAll}) {
-        for (double reach = kFirstShare * tolerance; tests <= kMostTests; reach = std::min(reach * kGrowth, tolerance)) {
-            for (int round = 0; round < kRounds && tests <= kMostTests && Round(draft, pass, reach, tests).run(); ++round) {
+        for (double reach = kFirstShare * tolerance; going(); reach = std::min(reach * kGrowth, tolerance)) {
+            for (int round = 0; round < kRounds && going() && Round(draft, pass, reach, tests).run(); ++round) {
             }
             if (reach >= tolerance) break;
         }

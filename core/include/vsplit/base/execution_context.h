@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string_view>
+#include <utility>
 
 #include "vsplit/base/expected.h"
 
@@ -36,7 +37,11 @@ public:
     void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
     /// Cancels when `time` comes. \pre nothing runs in this yet.
     void cancel_at(Clock::time_point time) { until_ = time; }
-    [[nodiscard]] bool cancelled() const { return cancelled_.load(std::memory_order_relaxed) || late(); }
+    /// Cancels when `unwanted` is true; it is asked from any thread of the verb, and often. \pre nothing runs in this yet.
+    void cancel_when(std::function<bool()> unwanted) { unwanted_ = std::move(unwanted); }
+    [[nodiscard]] bool cancelled() const {
+        return cancelled_.load(std::memory_order_relaxed) || late() || (unwanted_ && unwanted_());
+    }
     /// Whether the time of `cancel_at` has come.
     [[nodiscard]] bool late() const { return until_ != Clock::time_point::max() && Clock::now() >= until_; }
 
@@ -56,6 +61,7 @@ private:
     ProgressHandler on_progress_;
     unsigned threads_ = 0;
     Clock::time_point until_ = Clock::time_point::max();
+    std::function<bool()> unwanted_;
     std::atomic<bool> cancelled_{false};
 };
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "vsplit/base/execution_context.h"
 #include "vsplit/base/expected.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
@@ -18,8 +19,10 @@ inline constexpr std::uint64_t kMostFacePairs = 4'000'000'000;
 /// Pairs of faces, ascending, without a common vertex of which an edge of one passes through the
 /// inside of the other. Signs that rounding of doubles leaves open count as touching, and touching is no intersection, nor is an
 /// overlap within one plane.
-/// \return LIMIT_EXCEEDED for a mesh of which more than kMostFacePairs pairs overlap along its longest axis.
+/// \return LIMIT_EXCEEDED for a mesh of which more than kMostFacePairs pairs overlap along its longest axis;
+/// CANCELLED.
 /// O(faces * faces that overlap along the longest axis), in parallel.
-[[nodiscard]] Expected<std::vector<FacePair>> find_self_intersections(const TriangleMesh& mesh);
+[[nodiscard]] Expected<std::vector<FacePair>> find_self_intersections(const TriangleMesh& mesh,
+                                                                      const ExecutionContext& context = ExecutionContext());
 
 }  // namespace vsplit

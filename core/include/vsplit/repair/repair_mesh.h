@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "vsplit/base/execution_context.h"
 #include "vsplit/base/expected.h"
 #include "vsplit/mesh/finding.h"
 #include "vsplit/mesh/inspect.h"
@@ -57,13 +58,15 @@ struct RepairedMesh {
 /// 7. FULL: DROPPED_SPECK, FILLED_HOLE: by the triangulation of least area; the only or outer border of a piece is no hole.
 ///
 /// \pre every index is below the number of vertices, coordinates are finite.
-/// \return what `check_options` returns.
+/// \return what `check_options` returns; CANCELLED.
 /// Complexity: O(n log n), holes cubic in their edges (of at most 500). Deterministic.
-[[nodiscard]] Expected<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options);
+[[nodiscard]] Expected<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options,
+                                                 const ExecutionContext& context = ExecutionContext());
 
 /// What everybody does with a mesh just read: inspects it; where a repair is asked for, puts the repaired mesh in its place
-/// first. The report's findings are the repair's, then what `weld` dropped. Without a repair nothing looks for
+/// first. \return CANCELLED. The report's findings are the repair's, then what `weld` dropped. Without a repair nothing looks for
 /// self-intersections.
-[[nodiscard]] Expected<MeshReport> inspect_source(TriangleMesh& mesh, const WeldCounts& weld, std::optional<RepairMode> repair);
+[[nodiscard]] Expected<MeshReport> inspect_source(TriangleMesh& mesh, const WeldCounts& weld, std::optional<RepairMode> repair,
+                                                  const ExecutionContext& context = ExecutionContext());
 
 }  // namespace vsplit
