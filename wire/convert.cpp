@@ -126,6 +126,7 @@ v1::MeshSummary to_proto(const MeshReport& report) {
     *proto.mutable_quality() = to_proto(report.quality);
     for (const Finding& finding : report.findings) *proto.add_findings() = to_proto(finding);
     proto.set_unit(to_proto(report.unit));
+    proto.mutable_quality()->set_unit(proto.unit());
     return proto;
 }
 

@@ -80,6 +80,7 @@ v1::Representation describe(const std::string& id, const std::string& source_rep
     *proto.mutable_records() = count_records(extent);
     *proto.mutable_elapsed() = to_duration(figures.elapsed);
     proto.set_unit(to_proto(figures.unit));
+    proto.mutable_quality()->set_unit(proto.unit());
     return proto;
 }
 
@@ -93,6 +94,7 @@ v1::InterruptedMethod describe_interrupted(const std::string& source_representat
 void describe_resolution(const TriangleMesh& mesh, v1::Representation& representation) {
     representation.set_faces(mesh.face_count());
     *representation.mutable_quality() = to_proto(measure_quality(mesh));
+    representation.mutable_quality()->set_unit(representation.unit());
     representation.clear_slivers();  // they were told with the source at hand, and name faces of another resolution
     if (!representation.has_control_options()) return;
     const Expected<ControlOptions> options = from_proto(representation.control_options());

@@ -22,14 +22,22 @@ constexpr std::size_t kQuotedBytes = 200;
 constexpr std::size_t kLongPage = 1400;  // worth compressing
 constexpr std::string_view kPageMethods = "GET, HEAD, OPTIONS";
 
-Problem no_such_path(const std::string& path) {
-    return http_problem(404, Cause::kNotFound,
-                        "nothing is at " + wire::valid_utf8(path, kQuotedBytes) + "; /openapi.json describes what there is");
+/// A shell's variable that was never set leaves such a path.
+const char* hint_at(const std::string& path) {
+    const bool nameless = path.find("//") != std::string::npos || path.find("/:") != std::string::npos;
+    return nameless ? "; a name in the path is empty" : "";
 }
 
-Problem wrong_method(const Exchange& exchange, std::string allowed) {
+Problem no_such_path(const std::string& path) {
+    return http_problem(
+        404, Cause::kNotFound,
+        "nothing is at " + wire::valid_utf8(path, kQuotedBytes) + "; /openapi.json describes what there is" + hint_at(path));
+}
+
+Problem wrong_method(const Exchange& exchange, const std::string& path, std::string allowed) {
     Problem problem = http_problem(
-        405, Cause::kUnsupported, "the path has no " + wire::valid_utf8(exchange.method(), kQuotedBytes) + "; it has " + allowed);
+        405, Cause::kUnsupported,
+        "the path has no " + wire::valid_utf8(exchange.method(), kQuotedBytes) + "; it has " + allowed + hint_at(path));
     problem.allow = std::move(allowed);
     return problem;
 }
@@ -128,7 +136,7 @@ Awaitable<void> Gateway::serve_target(Exchange& exchange, const Target& target) 
     const bool ready_page = target.path == kReadyPath;
     if (page != pages_.end() || ready_page) {
         if (exchange.method() == "OPTIONS") co_return co_await serve_options(exchange, std::string(kPageMethods));
-        if (!is_get(exchange)) co_return co_await exchange.fail(wrong_method(exchange, std::string(kPageMethods)));
+        if (!is_get(exchange)) co_return co_await exchange.fail(wrong_method(exchange, target.path, std::string(kPageMethods)));
         if (ready_page) co_return co_await serve_ready(exchange);
         const bool guarded = page->second.guarded && backend_.admit != nullptr;
         const Status admitted = guarded ? backend_.admit(exchange) : Status(Done{});
@@ -139,7 +147,7 @@ Awaitable<void> Gateway::serve_target(Exchange& exchange, const Target& target) 
     if (routes.empty()) co_return co_await exchange.fail(no_such_path(target.path));
     if (exchange.method() == "OPTIONS") co_return co_await serve_options(exchange, allowed_methods(routes));
     const Route* const route = find_route(routes, exchange.method());
-    if (route == nullptr) co_return co_await exchange.fail(wrong_method(exchange, allowed_methods(routes)));
+    if (route == nullptr) co_return co_await exchange.fail(wrong_method(exchange, target.path, allowed_methods(routes)));
     co_await serve_rpc(exchange, *route, target);
 }
 

@@ -397,6 +397,7 @@ TEST_F(RestTest, RefusesWhatHttpHasANameFor) {
     EXPECT_TRUE(is_problem(method, 405, "UNSUPPORTED"));
     EXPECT_EQ(method.fields.at("Allow"), "DELETE, GET, HEAD, OPTIONS");
     EXPECT_EQ(ask("OPTIONS", session + ":improve").fields.at("Allow"), "OPTIONS, POST");
+    EXPECT_THAT(ask("POST", "/v1/sessions/:improve").body, HasSubstr("a name in the path is empty"));
     EXPECT_TRUE(is_problem(ask("GET", session, {{"Accept", "text/html"}}), 406, "UNSUPPORTED"));
     EXPECT_TRUE(
         is_problem(ask("POST", session + ":improve", {{"Accept", "text/html, application/json;q=0"}}), 406, "UNSUPPORTED"));

@@ -65,6 +65,7 @@ TEST(UnitsRpcsTest, AnUploadStatesItInItsFirstMessage) {
     second.set_unit(v1::METRE);
     EXPECT_TRUE(failed_with(upload_parts(server.stub(), {first, second}).status, Cause::kInvalidOption, "unit"));
     EXPECT_EQ(get_session(server.stub(), first.session()).message.source().unit(), v1::CENTIMETRE);
+    EXPECT_EQ(get_session(server.stub(), first.session()).message.source().quality().unit(), v1::CENTIMETRE);
 }
 
 TEST(UnitsRpcsTest, WhateverHasLengthsSaysTheirUnit) {
@@ -73,10 +74,13 @@ TEST(UnitsRpcsTest, WhateverHasLengthsSaysTheirUnit) {
     const Received made = improve(server.stub(), small_improve(session));
     ASSERT_TRUE(made.status.ok());
     EXPECT_EQ(made.representation->unit(), v1::MILLIMETRE);
+    EXPECT_EQ(made.representation->quality().unit(), v1::MILLIMETRE);
     v1::SetResolutionRequest coarser;
     coarser.set_session(session);
     coarser.set_faces(100);
-    EXPECT_EQ(set_resolution(server.stub(), coarser).representation->unit(), v1::MILLIMETRE);
+    const Received resolution = set_resolution(server.stub(), coarser);
+    EXPECT_EQ(resolution.representation->unit(), v1::MILLIMETRE);
+    EXPECT_EQ(resolution.representation->quality().unit(), v1::MILLIMETRE);
     EXPECT_EQ(get_session(server.stub(), session).message.representations(0).unit(), v1::MILLIMETRE);
     for (const char* representation : {"", "r1"})
         EXPECT_EQ(get_quality(server.stub(), session, representation).message.unit(), v1::MILLIMETRE);

@@ -297,26 +297,29 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
 
 namespace {
 
+/// What to do, for who has the file still.
+constexpr const char* kRepairHelps = "; a repair when the mesh is read mends that";
+
 Status require_faces_and_edges(const MeshReport& report) {
     if (report.faces == 0) return Error{Cause::kEmptyInput, "the mesh has no faces; at least one is needed", ""};
     using Kind = Finding::Kind;
     if (const Finding* f = find_kind(report, Kind::kNonManifoldEdge)) {
         return Error{Cause::kNonManifold,
                      std::to_string(f->count) + " edges have more than two faces: " + places(*f, true) +
-                         " (vertex indices); every edge must have two, or one at a boundary",
+                         " (vertex indices); every edge must have two, or one at a boundary" + kRepairHelps,
                      ""};
     }
     if (const Finding* f = find_kind(report, Kind::kInconsistentEdge)) {
         return Error{Cause::kNonManifold,
                      std::to_string(f->count) + " edges have two faces that disagree on which side is outside: " +
-                         places(*f, true) + " (vertex indices); faces must be oriented consistently",
+                         places(*f, true) + " (vertex indices); faces must be oriented consistently" + kRepairHelps,
                      ""};
     }
     if (const Finding* f = find_kind(report, Kind::kDuplicateFace)) {
         return Error{Cause::kNonManifold,
                      std::to_string(f->count) +
                          " of the faces lie on the same three vertices as another one, the first is face " +
-                         std::to_string(f->elements.front()) + "; a sheet needs a thickness, or one face only",
+                         std::to_string(f->elements.front()) + "; a sheet needs a thickness, or one face only" + kRepairHelps,
                      ""};
     }
     return Done{};
@@ -335,13 +338,13 @@ Status require_vertices(const MeshReport& report) {
         return Error{Cause::kNonManifold,
                      "the boundary touches itself at vertex " + list(report.boundary_touches) +
                          "; accepted is a boundary that passes every vertex at most once: give each part a vertex of its own, or "
-                         "fill the gap between them",
+                         "fill the gap between them" + kRepairHelps,
                      ""};
     }
     if (const Finding* f = find_kind(report, Finding::Kind::kNonManifoldVertex)) {
         return Error{Cause::kNonManifold,
                      std::to_string(f->count) + " vertices join more than one fan of faces: " + places(*f, false) +
-                         "; every vertex must have one",
+                         "; every vertex must have one" + kRepairHelps,
                      ""};
     }
     return Done{};
