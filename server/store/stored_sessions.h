@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <shared_mutex>
 #include <span>
@@ -11,12 +10,10 @@
 #include "service/session_archive.h"
 #include "store/blob_store.h"
 #include "store/disk_reserve.h"
+#include "store/report.h"
 #include "store/session_index.h"
 
 namespace vsplit::store {
-
-/// Hears of what an operator should know. Any thread; must not block.
-using Report = std::function<void(const std::string& message)>;
 
 /// Sessions in a blob store and an index. A blob is loose in the index before it is put, and again when it loses a session; only
 /// loose ones are ever removed. So the end of the process leaves at most blobs that are known to be nobody's, which `restore`

@@ -74,6 +74,59 @@ TEST_F(DataDirTest, ADamagedIndexIsPutAsideAsItIs) {
     EXPECT_TRUE(std::filesystem::exists(directory_ / "damaged-2" / "sessions.db"));
 }
 
+/// An index whose server was killed: sessions in its log, none in itself.
+void make_killed_index(const std::filesystem::path& directory, std::uint64_t sessions) {
+    const auto live = directory / "live";
+    std::filesystem::create_directories(live);
+    const auto index = *SqliteSessionIndex::open(live / "sessions.db");
+    for (std::uint64_t number = 1; number <= sessions; ++number) {
+        ASSERT_TRUE(index->add_session({number, std::to_string(number), "", 0, 0, 0, {}}));
+    }
+    for (const char* name : {"sessions.db", "sessions.db-wal"}) std::filesystem::copy_file(live / name, directory / name);
+}
+
+TEST_F(DataDirTest, ALogWithoutItsIndexIsPutAside) {
+    for (const bool empty : {false, true}) {
+        told_.clear();
+        std::filesystem::remove_all(directory_);
+        make_killed_index(directory_, 3);
+        const auto log = std::filesystem::file_size(directory_ / "sessions.db-wal");
+        if (empty) {
+            std::filesystem::resize_file(directory_ / "sessions.db", 0);
+        } else {
+            std::filesystem::remove(directory_ / "sessions.db");
+        }
+        ASSERT_TRUE(open());
+        EXPECT_THAT(told_, HasSubstr("its log is not; put aside untouched in "));
+        EXPECT_EQ(std::filesystem::file_size(directory_ / "damaged-1" / "sessions.db-wal"), log);
+    }
+}
+
+TEST_F(DataDirTest, ALogThatIsDamagedInTheMiddleIsKept) {
+    make_killed_index(directory_, 4);
+    const auto path = directory_ / "sessions.db-wal";
+    std::filesystem::create_directories(directory_ / "blobs" / "ab");
+    std::ofstream(directory_ / "blobs" / "ab" / "something") << "of a session";
+    const auto log = std::filesystem::file_size(path);
+    std::fstream(path, std::ios::in | std::ios::out).seekp(static_cast<std::streamoff>(log / 2)).write("?!", 2);
+    ASSERT_TRUE(open());
+    EXPECT_THAT(told_, HasSubstr("the log of the data directory's index is damaged"));
+    EXPECT_EQ(std::filesystem::file_size(directory_ / "damaged-1" / "sessions.db-wal"), log);
+    EXPECT_TRUE(std::filesystem::exists(directory_ / "damaged-1" / "sessions.db"));
+    EXPECT_TRUE(std::filesystem::exists(directory_ / "damaged-1" / "blobs" / "ab" / "something"));
+    told_.clear();
+    ASSERT_TRUE(open());
+    EXPECT_EQ(told_, "") << "once";
+}
+
+TEST_F(DataDirTest, ALogThatACrashCutShortIsNotReported) {
+    make_killed_index(directory_, 4);
+    const auto path = directory_ / "sessions.db-wal";
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) - 100);
+    ASSERT_TRUE(open());
+    EXPECT_EQ(told_, "");
+}
+
 TEST_F(DataDirTest, ADirectoryThatIsThereKeepsItsPermissions) {
     std::filesystem::create_directories(directory_);
     std::filesystem::permissions(directory_, std::filesystem::perms(0755));
