@@ -1,5 +1,6 @@
 #include "store/sqlite_session_index.h"
 
+#include <array>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -10,11 +11,9 @@
 namespace vsplit::store {
 namespace {
 
-// Of the schema, in the database's user_version. 0 is a new database.
-constexpr std::int64_t kVersion = 1;
-
-// Triggers, not foreign keys, take away what is a session's: they work for whoever deletes a row, by whatever program.
-constexpr const char* kSchema = R"(
+// The schema is what these steps make, one after the other; the database's user_version is how many were taken. Triggers, not
+// foreign keys, take away what is a session's: they work for whoever deletes a row, by whatever program.
+constexpr const char* kFirstStep = R"(
 CREATE TABLE clock (now INTEGER NOT NULL) STRICT;
 INSERT INTO clock VALUES (0);
 CREATE TABLE sessions (
@@ -55,6 +54,16 @@ END;
 PRAGMA user_version = 1;
 )";
 
+// What changes at every use has a digest of its own.
+constexpr const char* kSecondStep = R"(
+ALTER TABLE clock ADD COLUMN digest TEXT NOT NULL DEFAULT '';
+ALTER TABLE sessions ADD COLUMN life TEXT NOT NULL DEFAULT '';  -- digest of number, expires and made
+PRAGMA user_version = 2;
+)";
+
+constexpr std::array kSteps{kFirstStep, kSecondStep};
+constexpr auto kVersion = static_cast<std::int64_t>(kSteps.size());
+
 // Of a row, so that bits that change in the file are seen. Lengths keep fields apart.
 std::string digest_of(std::initializer_list<std::string_view> fields) {
     std::string all;
@@ -70,6 +79,12 @@ std::string digest_of(const SessionRow& row) {
 std::string digest_of(const RepresentationRow& row) {
     return digest_of({std::to_string(row.session), std::to_string(row.number), row.item.blob, row.item.info});
 }
+
+std::string life_of(std::uint64_t number, std::int64_t expires, std::uint64_t made) {
+    return digest_of({"life", std::to_string(number), std::to_string(expires), std::to_string(made)});
+}
+
+std::string digest_of_clock(std::int64_t now) { return digest_of({"clock", std::to_string(now)}); }
 
 Error no_session() { return {Cause::kNotFound, "the session was deleted in the meantime", "session"}; }
 
@@ -118,19 +133,60 @@ Status SqliteSessionIndex::prepare_schema(bool writable) {
     }
     const Expected<std::int64_t> tables = one_number(database_, "SELECT count(*) FROM sqlite_schema");
     if (!tables) return tables.error();
-    if (*tables != 0) return Error{Cause::kCorrupt, "the data directory's index: it has tables and no version", ""};
+    if (*version < 0 || (*version == 0 && *tables != 0))
+        return Error{Cause::kCorrupt, "the data directory's index: it has tables and no version", ""};
+    return take_steps(*version);
+}
+
+/// From the schema of an earlier version, or none.
+Status SqliteSessionIndex::take_steps(std::int64_t version) {
     Transaction transaction(database_);
     if (Status begun = transaction.begin(); !begun) return begun;
-    if (Status made = database_.run(kSchema); !made) return made;
+    for (std::size_t step = static_cast<std::size_t>(version); step < kSteps.size(); ++step) {
+        if (Status made = database_.run(kSteps[step]); !made) return made;
+    }
+    if (Status signed_ = sign(); !signed_) return signed_;
     return transaction.commit();
+}
+
+/// Gives digests to what a version that had none has written. \pre a transaction is open.
+Status SqliteSessionIndex::sign() {
+    const Expected<std::int64_t> now = one_number(database_, "SELECT now FROM clock");
+    if (!now) return now.error();
+    if (Status set = set_clock(*now); !set) return set;
+    std::vector<SessionRow> sessions;
+    Statement rows = database_.prepare("SELECT number, expires, made FROM sessions");
+    for (Expected<bool> row = rows.step(); !row || *row; row = rows.step()) {
+        if (!row) return row.error();
+        SessionRow& session = sessions.emplace_back();
+        session.number = static_cast<std::uint64_t>(rows.number(0));
+        session.expires = rows.number(1);
+        session.made = static_cast<std::uint64_t>(rows.number(2));
+    }
+    for (const SessionRow& session : sessions) {
+        if (Status set = set_life(session.number, session.expires, session.made); !set) return set;
+    }
+    return Done{};
+}
+
+// Not an update, so that a row that was lost comes back. \pre a transaction is open.
+Status SqliteSessionIndex::set_clock(std::int64_t now) {
+    if (Status gone = database_.run("DELETE FROM clock"); !gone) return gone;
+    const std::string digest = digest_of_clock(now);
+    return database_.prepare("INSERT INTO clock (now, digest) VALUES (?, ?)").bind(now).bind_text(digest).run();
+}
+
+/// \pre lock held.
+Status SqliteSessionIndex::set_life(std::uint64_t session, std::int64_t expires, std::uint64_t made) {
+    const std::string life = life_of(session, expires, made);
+    Statement update = database_.prepare("UPDATE sessions SET expires = ?, made = ?, life = ? WHERE number = ?");
+    return update.bind(expires).bind(made).bind_text(life).bind(session).run();
 }
 
 Expected<IndexContents> SqliteSessionIndex::load() {
     const std::lock_guard lock(mutex_);
     IndexContents contents;
-    const Expected<std::int64_t> now = one_number(database_, "SELECT now FROM clock");
-    if (!now) return now.error();
-    contents.now = *now;
+    if (Status loaded = load_clock(contents); !loaded) return loaded.error();
     const Expected<std::int64_t> last = one_number(database_, "SELECT seq FROM sqlite_sequence WHERE name = 'sessions'");
     if (!last) return last.error();
     contents.last_session = static_cast<std::uint64_t>(*last);
@@ -140,9 +196,18 @@ Expected<IndexContents> SqliteSessionIndex::load() {
     return contents;
 }
 
+Status SqliteSessionIndex::load_clock(IndexContents& contents) {
+    Statement clock = database_.prepare("SELECT now, digest FROM clock");
+    const Expected<bool> row = clock.step();
+    if (!row) return row.error();
+    if (*row && clock.bytes(1) == digest_of_clock(clock.number(0))) contents.now = clock.number(0);
+    return Done{};
+}
+
 Status SqliteSessionIndex::load_sessions(IndexContents& contents) {
     Statement rows = database_.prepare(
-        "SELECT number, id, owner, created, expires, made, blob, info, digest, damage IS NOT NULL FROM sessions ORDER BY number");
+        "SELECT number, id, owner, created, expires, made, blob, info, digest, damage IS NOT NULL, life FROM sessions ORDER BY "
+        "number");
     for (;;) {
         const Expected<bool> row = rows.step();
         if (!row) return row.error();
@@ -155,7 +220,8 @@ Status SqliteSessionIndex::load_sessions(IndexContents& contents) {
         session.expires = rows.number(4);
         session.made = static_cast<std::uint64_t>(rows.number(5));
         session.source = {rows.bytes(6), rows.bytes(7)};
-        session.sound = digest_of(session) == rows.bytes(8);
+        session.sound =
+            digest_of(session) == rows.bytes(8) && life_of(session.number, session.expires, session.made) == rows.bytes(10);
         session.set_aside = rows.number(9) != 0;
         contents.sessions.push_back(std::move(session));
     }
@@ -190,8 +256,9 @@ Status SqliteSessionIndex::load_jobs(IndexContents& contents) {
 
 Status SqliteSessionIndex::add_session(const SessionRow& session) {
     const std::string digest = digest_of(session);
+    const std::string life = life_of(session.number, session.expires, session.made);
     const std::lock_guard lock(mutex_);
-    return database_.prepare("INSERT INTO sessions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, NULL)")
+    return database_.prepare("INSERT INTO sessions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, NULL, ?)")
         .bind(session.number)
         .bind_text(session.id)
         .bind_text(session.owner)
@@ -201,6 +268,7 @@ Status SqliteSessionIndex::add_session(const SessionRow& session) {
         .bind_text(session.source.blob)
         .bind_blob(session.source.info)
         .bind_text(digest)
+        .bind_text(life)
         .run();
 }
 
@@ -239,9 +307,11 @@ Status SqliteSessionIndex::add_representation(const RepresentationRow& represent
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
     if (Status begun = transaction.begin(); !begun) return begun;
-    Statement update = database_.prepare("UPDATE sessions SET made = ? WHERE number = ?");
-    if (Status done = update.bind(made).bind(representation.session).run(); !done) return done;
-    if (database_.changes() == 0) return no_session();
+    Statement row = database_.prepare("SELECT expires FROM sessions WHERE number = ?");
+    const Expected<bool> found = row.bind(representation.session).step();
+    if (!found) return found.error();
+    if (!*found) return no_session();
+    if (Status set = set_life(representation.session, row.number(0), made); !set) return set;
     Statement insert = database_.prepare("INSERT INTO representations VALUES (?, ?, ?, ?, ?)");
     insert.bind(representation.session).bind(representation.number);
     insert.bind_text(representation.item.blob).bind_blob(representation.item.info).bind_text(digest);
@@ -269,10 +339,14 @@ Status SqliteSessionIndex::note_time(std::int64_t now, const std::vector<std::pa
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
     if (Status begun = transaction.begin(); !begun) return begun;
-    if (Status done = database_.prepare("UPDATE clock SET now = ?").bind(now).run(); !done) return done;
-    Statement update = database_.prepare("UPDATE sessions SET expires = ? WHERE number = ?");
+    if (Status done = set_clock(now); !done) return done;
+    Statement row = database_.prepare("SELECT made FROM sessions WHERE number = ?");
     for (const auto& [session, time] : expire) {
-        if (Status done = update.bind(time).bind(session).run(); !done) return done;
+        const Expected<bool> found = row.bind(session).step();
+        if (!found) return found.error();
+        const auto made = *found ? static_cast<std::uint64_t>(row.number(0)) : 0;
+        row.reset();
+        if (Status done = set_life(session, time, made); !done) return done;
     }
     return transaction.commit();
 }

@@ -35,6 +35,11 @@ private:
     explicit SqliteSessionIndex(Database database) : database_(std::move(database)) {}
 
     [[nodiscard]] Status prepare_schema(bool writable);
+    [[nodiscard]] Status take_steps(std::int64_t version);
+    [[nodiscard]] Status sign();
+    [[nodiscard]] Status set_clock(std::int64_t now);
+    [[nodiscard]] Status set_life(std::uint64_t session, std::int64_t expires, std::uint64_t made);
+    [[nodiscard]] Status load_clock(IndexContents& contents);
     [[nodiscard]] Status load_sessions(IndexContents& contents);
     [[nodiscard]] Status load_representations(IndexContents& contents);
     [[nodiscard]] Status load_jobs(IndexContents& contents);

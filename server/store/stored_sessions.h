@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <shared_mutex>
 #include <span>
@@ -49,6 +50,7 @@ private:
                                                                                   const Blobs& blobs,
                                                                                   service::MemoryBudget& budget) const;
     [[nodiscard]] Expected<BlobEntry> put(std::span<const Bytes> parts);
+    void forget_expiry(std::map<std::uint64_t, service::SessionRecord>& sessions) const;
     void judge(const SessionRow& row, const Error* damage);
     void put_unknown_aside(const std::vector<std::string>& blobs);
     void can_be_loaded(const service::SourceMesh& source, const std::string& blob) const;

@@ -150,12 +150,12 @@ TEST_F(DataDirTest, ALaterVersionIsLeftAlone) {
     ASSERT_TRUE(open());
     {
         auto database = Database::open(directory_ / "sessions.db");
-        ASSERT_TRUE(database && database->run("PRAGMA user_version = 2"));
+        ASSERT_TRUE(database && database->run("PRAGMA user_version = 3"));
     }
     const auto opened = open();
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().cause, Cause::kUnsupported);
-    EXPECT_THAT(opened.error().message, HasSubstr("has version 2"));
+    EXPECT_THAT(opened.error().message, HasSubstr("has version 3"));
     EXPECT_EQ(told_, "");
     EXPECT_FALSE(std::filesystem::exists(directory_ / "damaged-1"));
 }
