@@ -13,6 +13,7 @@
 
 #include "service/disk_error.h"
 #include "store/damage.h"
+#include "store/disk_reserve.h"
 #include "store/file_blob_store.h"
 #include "store/sqlite_session_index.h"
 #include "store/stored_sessions.h"
@@ -22,6 +23,25 @@ namespace vsplit::store {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kReserveName = "reserve";
+
+/// Whether what is there is of the kind that it should be. What is not there is.
+Status require_kinds(const fs::path& directory) {
+    for (const std::string& name : {std::string(), std::string(kIndexName), std::string(kBlobsName),
+                                    kBlobsName + std::string("/incoming"), std::string("uploads"), std::string(kReserveName)}) {
+        const fs::path path = name.empty() ? directory : directory / name;
+        const bool file = name == kIndexName || name == kReserveName;
+        std::error_code failed;
+        const fs::file_type type = fs::status(path, failed).type();
+        if (type == fs::file_type::not_found || type == (file ? fs::file_type::regular : fs::file_type::directory)) continue;
+        if (failed) return service::disk_error("cannot look at " + path.string(), failed.value());
+        return Error{Cause::kInvalidOption,
+                     path.string() + " is not a " + (file ? "file" : "directory") + ", as vsplitd needs it; move it away",
+                     "data_dir"};
+    }
+    return Done{};
+}
 
 /// For its owner alone, where it is made; one that is there is somebody's decision.
 Status make_directories(const fs::path& directory) {
@@ -85,15 +105,24 @@ Status look_over(const fs::path& directory, bool writable, const Report& report)
 }  // namespace
 
 Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, const Report& report) {
-    const bool writable = !fs::exists(directory / kIndexName) || access(directory.c_str(), W_OK) == 0;
+    std::error_code unknown;
+    const bool has_index = fs::exists(directory / kIndexName, unknown);
+    if (unknown) return service::disk_error("cannot look into the data directory " + directory.string(), unknown.value());
+    const bool writable = !has_index || access(directory.c_str(), W_OK) == 0;
     if (!writable)
         report(service::disk_error("the data directory " + directory.string() + " is served, and nothing new is kept in it")
                    .message);
+    if (Status kinds = require_kinds(directory); !kinds) return kinds.error();
     if (Status made = writable ? make_directories(directory) : Status(Done{}); !made) return made.error();
     const Expected<int> descriptor = lock(directory);
     if (!descriptor) return descriptor.error();
     DataDir opened(directory, *descriptor, writable);
-    if (Status ready = opened.open_archive(quota, report); !ready) return ready.error();
+    Status ready = opened.open_archive(quota, report);
+    if (!ready && writable && ready.error().cause == Cause::kLimitExceeded) {
+        DiskReserve(directory / kReserveName).give();
+        ready = opened.open_archive(quota, report);
+    }
+    if (!ready) return ready.error();
     return opened;
 }
 
@@ -115,8 +144,8 @@ Status DataDir::open_archive(std::uint64_t quota, const Report& report) {
     if (!index) return index.error();
     Expected<std::unique_ptr<FileBlobStore>> blobs = FileBlobStore::open(directory_ / kBlobsName, quota, writable_);
     if (!blobs) return blobs.error();
-    archive_ = std::make_unique<StoredSessions>(*std::move(blobs), *std::move(index), DiskReserve(directory_ / "reserve"), quota,
-                                                report);
+    archive_ = std::make_unique<StoredSessions>(*std::move(blobs), *std::move(index), DiskReserve(directory_ / kReserveName),
+                                                quota, report);
     return Done{};
 }
 

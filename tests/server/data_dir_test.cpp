@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "store/sqlite.h"
 #include "store/sqlite_session_index.h"
@@ -54,6 +56,52 @@ TEST_F(DataDirTest, AFileInItsPlaceIsRefused) {
     const auto opened = open();
     ASSERT_FALSE(opened);
     EXPECT_THAT(opened.error().message, HasSubstr(directory_.string()));
+}
+
+TEST_F(DataDirTest, APlaceThatCannotBeIsAnErrorNotAnEnd) {
+    const auto refusal = [this](const std::filesystem::path& path) {
+        const auto opened = DataDir::open(path, 0, [this](const std::string& message) { told_ += message; });
+        return opened ? std::string("opened") : opened.error().message;
+    };
+    EXPECT_THAT(refusal(scratch_.path() / std::string(300, 'x')), HasSubstr("File name too long"));
+    const auto loop = scratch_.path() / "loop";
+    std::filesystem::create_symlink(loop, loop);
+    EXPECT_THAT(refusal(loop), HasSubstr("Too many levels of symbolic links"));
+    EXPECT_THAT(refusal(loop / "under"), HasSubstr("Too many levels of symbolic links"));
+    EXPECT_EQ(told_, "");
+}
+
+TEST_F(DataDirTest, WhatIsOfAnotherKindIsNamed) {
+    for (const char* name : {"sessions.db", "reserve", "blobs", "blobs/incoming", "uploads"}) {
+        std::filesystem::remove_all(directory_);
+        ASSERT_TRUE(open());
+        const auto path = directory_ / name;
+        const bool file = std::filesystem::is_regular_file(path);
+        std::filesystem::remove_all(path);
+        if (file) {
+            std::filesystem::create_directory(path);
+        } else {
+            std::ofstream(path) << "a file";
+        }
+        const auto opened = open();
+        ASSERT_FALSE(opened) << name;
+        EXPECT_EQ(opened.error().message,
+                  path.string() + " is not a " + (file ? "file" : "directory") + ", as vsplitd needs it; move it away");
+    }
+}
+
+TEST_F(DataDirTest, AnIndexThatSomebodyLooksAtIsWaitedFor) {
+    ASSERT_TRUE(open());
+    auto other = *Database::open(directory_ / "sessions.db");
+    ASSERT_TRUE(other.run("BEGIN IMMEDIATE"));
+    std::thread looks([&other] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        EXPECT_TRUE(other.run("COMMIT"));
+    });
+    const auto index = SqliteSessionIndex::open(directory_ / "sessions.db");
+    ASSERT_TRUE(index);
+    EXPECT_TRUE((*index)->add_loose("blob"));
+    looks.join();
 }
 
 TEST_F(DataDirTest, ADamagedIndexIsPutAsideAsItIs) {
