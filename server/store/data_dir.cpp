@@ -15,6 +15,7 @@
 #include "store/damage.h"
 #include "store/disk_reserve.h"
 #include "store/file_blob_store.h"
+#include "store/salvage.h"
 #include "store/sqlite_session_index.h"
 #include "store/stored_sessions.h"
 #include "store/wal_check.h"
@@ -102,6 +103,20 @@ Status look_over(const fs::path& directory, bool writable, const Report& report)
     return Done{};
 }
 
+/// In the place of an index that is damaged, with what is sound of it.
+Expected<std::unique_ptr<SqliteSessionIndex>> begin_anew(const fs::path& directory, const Error& damage, const Report& report) {
+    const Expected<fs::path> aside = keep_damaged(directory, Original::kGoes);
+    if (!aside) return aside.error();
+    const IndexContents sound = salvage(*aside / kIndexName);
+    Expected<std::unique_ptr<SqliteSessionIndex>> index = SqliteSessionIndex::open(directory / kIndexName);
+    if (!index) return index;
+    if (Status taken = (*index)->take_over(sound); !taken) return taken.error();
+    report(damage.message + "; put aside untouched in " + aside->string() +
+           ", and begun anew with what is sound of it: " + std::to_string(sound.sessions.size()) + " sessions with " +
+           std::to_string(sound.representations.size()) + " representations");
+    return index;
+}
+
 }  // namespace
 
 Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, const Report& report) {
@@ -129,12 +144,7 @@ Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, 
 Expected<std::unique_ptr<SessionIndex>> DataDir::open_index(const Report& report) const {
     if (Status looked = look_over(directory_, writable_, report); !looked) return looked.error();
     Expected<std::unique_ptr<SqliteSessionIndex>> index = SqliteSessionIndex::open(directory_ / kIndexName, writable_);
-    if (!index && writable_ && index.error().cause == Cause::kCorrupt) {
-        const Expected<fs::path> aside = keep_damaged(directory_, Original::kGoes);
-        if (!aside) return aside.error();
-        report(index.error().message + "; put aside untouched in " + aside->string() + ", and begun anew without its sessions");
-        index = SqliteSessionIndex::open(directory_ / kIndexName);
-    }
+    if (!index && writable_ && index.error().cause == Cause::kCorrupt) index = begin_anew(directory_, index.error(), report);
     if (!index) return index.error();
     return std::unique_ptr<SessionIndex>(*std::move(index));
 }

@@ -1,12 +1,12 @@
 #include "store/sqlite_session_index.h"
 
+#include <algorithm>
 #include <array>
-#include <initializer_list>
+#include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 
-#include "guard/digest.h"
+#include "store/index_rows.h"
 
 namespace vsplit::store {
 namespace {
@@ -64,28 +64,6 @@ PRAGMA user_version = 2;
 constexpr std::array kSteps{kFirstStep, kSecondStep};
 constexpr auto kVersion = static_cast<std::int64_t>(kSteps.size());
 
-// Of a row, so that bits that change in the file are seen. Lengths keep fields apart.
-std::string digest_of(std::initializer_list<std::string_view> fields) {
-    std::string all;
-    for (const std::string_view field : fields) all += std::to_string(field.size()) + ':' + std::string(field);
-    return guard::hex_digits(guard::digest_of(all));
-}
-
-std::string digest_of(const SessionRow& row) {
-    return digest_of(
-        {std::to_string(row.number), row.id, row.owner, std::to_string(row.created), row.source.blob, row.source.info});
-}
-
-std::string digest_of(const RepresentationRow& row) {
-    return digest_of({std::to_string(row.session), std::to_string(row.number), row.item.blob, row.item.info});
-}
-
-std::string life_of(std::uint64_t number, std::int64_t expires, std::uint64_t made) {
-    return digest_of({"life", std::to_string(number), std::to_string(expires), std::to_string(made)});
-}
-
-std::string digest_of_clock(std::int64_t now) { return digest_of({"clock", std::to_string(now)}); }
-
 Error no_session() { return {Cause::kNotFound, "the session was deleted in the meantime", "session"}; }
 
 Expected<std::int64_t> one_number(Database& database, const char* sql) {
@@ -103,6 +81,34 @@ Status check(Database& database) {
     const std::string told = *row ? statement.bytes(0) : "nothing";
     if (told == "ok") return Done{};
     return Error{Cause::kCorrupt, "the data directory's index: " + told, ""};
+}
+
+Expected<std::set<std::string>> schema_of(Database& database) {
+    Statement rows = database.prepare(
+        "SELECT type || ' ' || name || ' of ' || tbl_name || ': ' || sql FROM sqlite_schema WHERE name NOT LIKE 'sqlite_%'");
+    std::set<std::string> schema;
+    for (;;) {
+        const Expected<bool> row = rows.step();
+        if (!row) return row.error();
+        if (!*row) return schema;
+        schema.insert(rows.bytes(0));
+    }
+}
+
+// A bit that changes in the name of a column or in a trigger leaves a sound database, which works otherwise. What somebody has
+// added is no damage.
+Status check_schema(Database& database) {
+    Expected<Database> fresh = Database::open(":memory:");
+    if (!fresh) return fresh.error();
+    for (const char* step : kSteps) {
+        if (Status taken = fresh->run(step); !taken) return taken;
+    }
+    const Expected<std::set<std::string>> wanted = schema_of(*fresh);
+    if (!wanted) return wanted.error();
+    const Expected<std::set<std::string>> found = schema_of(database);
+    if (!found) return found.error();
+    if (std::includes(found->begin(), found->end(), wanted->begin(), wanted->end())) return Done{};
+    return Error{Cause::kCorrupt, "the data directory's index: its schema is not as it was written", ""};
 }
 
 }  // namespace
@@ -124,7 +130,7 @@ Status SqliteSessionIndex::prepare_schema(bool writable) {
     if (Status sound = check(database_); !sound) return sound;
     const Expected<std::int64_t> version = one_number(database_, "PRAGMA user_version");
     if (!version) return version.error();
-    if (*version == kVersion) return Done{};
+    if (*version == kVersion) return check_schema(database_);
     if (*version > kVersion) {
         return Error{Cause::kUnsupported,
                      "the data directory's index has version " + std::to_string(*version) +
@@ -135,7 +141,8 @@ Status SqliteSessionIndex::prepare_schema(bool writable) {
     if (!tables) return tables.error();
     if (*version < 0 || (*version == 0 && *tables != 0))
         return Error{Cause::kCorrupt, "the data directory's index: it has tables and no version", ""};
-    return take_steps(*version);
+    if (Status taken = take_steps(*version); !taken) return taken;
+    return check_schema(database_);
 }
 
 /// From the schema of an earlier version, or none.
@@ -186,78 +193,44 @@ Status SqliteSessionIndex::set_life(std::uint64_t session, std::int64_t expires,
 Expected<IndexContents> SqliteSessionIndex::load() {
     const std::lock_guard lock(mutex_);
     IndexContents contents;
-    if (Status loaded = load_clock(contents); !loaded) return loaded.error();
+    const Expected<std::optional<std::int64_t>> now = read_clock(database_);
+    if (!now) return now.error();
+    contents.now = *now;
     const Expected<std::int64_t> last = one_number(database_, "SELECT seq FROM sqlite_sequence WHERE name = 'sessions'");
     if (!last) return last.error();
     contents.last_session = static_cast<std::uint64_t>(*last);
-    if (Status loaded = load_sessions(contents); !loaded) return loaded.error();
-    if (Status loaded = load_representations(contents); !loaded) return loaded.error();
-    if (Status loaded = load_jobs(contents); !loaded) return loaded.error();
+    Status loaded = load_rows("SELECT * FROM sessions ORDER BY number",
+                              [&](const Statement& row) { contents.sessions.push_back(read_session(row)); });
+    if (!loaded) return loaded.error();
+    loaded = load_rows("SELECT * FROM representations ORDER BY session, number",
+                       [&](const Statement& row) { contents.representations.push_back(read_representation_row(row)); });
+    if (!loaded) return loaded.error();
+    loaded =
+        load_rows("SELECT * FROM jobs ORDER BY number", [&](const Statement& row) { contents.jobs.push_back(read_job(row)); });
+    if (!loaded) return loaded.error();
+    if (!contents.sessions.empty()) contents.last_session = std::max(contents.last_session, contents.sessions.back().number);
     return contents;
 }
 
-Status SqliteSessionIndex::load_clock(IndexContents& contents) {
-    Statement clock = database_.prepare("SELECT now, digest FROM clock");
-    const Expected<bool> row = clock.step();
-    if (!row) return row.error();
-    if (*row && clock.bytes(1) == digest_of_clock(clock.number(0))) contents.now = clock.number(0);
-    return Done{};
-}
-
-Status SqliteSessionIndex::load_sessions(IndexContents& contents) {
-    Statement rows = database_.prepare(
-        "SELECT number, id, owner, created, expires, made, blob, info, digest, damage IS NOT NULL, life FROM sessions ORDER BY "
-        "number");
+Status SqliteSessionIndex::load_rows(const char* sql, const std::function<void(const Statement&)>& take) {
+    Statement rows = database_.prepare(sql);
     for (;;) {
         const Expected<bool> row = rows.step();
         if (!row) return row.error();
         if (!*row) return Done{};
-        SessionRow session;
-        session.number = static_cast<std::uint64_t>(rows.number(0));
-        session.id = rows.bytes(1);
-        session.owner = rows.bytes(2);
-        session.created = rows.number(3);
-        session.expires = rows.number(4);
-        session.made = static_cast<std::uint64_t>(rows.number(5));
-        session.source = {rows.bytes(6), rows.bytes(7)};
-        session.sound =
-            digest_of(session) == rows.bytes(8) && life_of(session.number, session.expires, session.made) == rows.bytes(10);
-        session.set_aside = rows.number(9) != 0;
-        contents.sessions.push_back(std::move(session));
-    }
-}
-
-Status SqliteSessionIndex::load_representations(IndexContents& contents) {
-    Statement rows =
-        database_.prepare("SELECT session, number, blob, info, digest FROM representations ORDER BY session, number");
-    for (;;) {
-        const Expected<bool> row = rows.step();
-        if (!row) return row.error();
-        if (!*row) return Done{};
-        RepresentationRow made;
-        made.session = static_cast<std::uint64_t>(rows.number(0));
-        made.number = static_cast<std::uint64_t>(rows.number(1));
-        made.item = {rows.bytes(2), rows.bytes(3)};
-        made.sound = digest_of(made) == rows.bytes(4);
-        contents.representations.push_back(std::move(made));
-    }
-}
-
-Status SqliteSessionIndex::load_jobs(IndexContents& contents) {
-    Statement rows = database_.prepare("SELECT number, session, info FROM jobs ORDER BY number");
-    for (;;) {
-        const Expected<bool> row = rows.step();
-        if (!row) return row.error();
-        if (!*row) return Done{};
-        contents.jobs.push_back(
-            {static_cast<std::uint64_t>(rows.number(0)), static_cast<std::uint64_t>(rows.number(1)), rows.bytes(2)});
+        take(rows);
     }
 }
 
 Status SqliteSessionIndex::add_session(const SessionRow& session) {
+    const std::lock_guard lock(mutex_);
+    return insert(session);
+}
+
+// \pre lock held.
+Status SqliteSessionIndex::insert(const SessionRow& session) {
     const std::string digest = digest_of(session);
     const std::string life = life_of(session.number, session.expires, session.made);
-    const std::lock_guard lock(mutex_);
     return database_.prepare("INSERT INTO sessions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, NULL, ?)")
         .bind(session.number)
         .bind_text(session.id)
@@ -270,6 +243,37 @@ Status SqliteSessionIndex::add_session(const SessionRow& session) {
         .bind_text(digest)
         .bind_text(life)
         .run();
+}
+
+// \pre lock held.
+Status SqliteSessionIndex::insert(const RepresentationRow& representation) {
+    const std::string digest = digest_of(representation);
+    return database_.prepare("INSERT INTO representations VALUES (?, ?, ?, ?, ?)")
+        .bind(representation.session)
+        .bind(representation.number)
+        .bind_text(representation.item.blob)
+        .bind_blob(representation.item.info)
+        .bind_text(digest)
+        .run();
+}
+
+Status SqliteSessionIndex::take_over(const IndexContents& contents) {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(database_);
+    if (Status begun = transaction.begin(); !begun) return begun;
+    for (const SessionRow& session : contents.sessions) {
+        if (Status added = insert(session); !added) return added;
+    }
+    for (const RepresentationRow& representation : contents.representations) {
+        if (Status added = insert(representation); !added) return added;
+    }
+    Statement job = database_.prepare("INSERT INTO jobs (session, info) VALUES (?, ?)");
+    for (const JobRow& row : contents.jobs) {
+        if (Status added = job.bind(row.session).bind_blob(row.info).run(); !added) return added;
+    }
+    Status clock = contents.now ? set_clock(*contents.now) : database_.run("DELETE FROM clock");
+    if (!clock) return clock;
+    return transaction.commit();
 }
 
 /// What the digest is of, but for the source. \pre lock held.
@@ -303,7 +307,6 @@ Status SqliteSessionIndex::set_source(std::uint64_t session, const StoredItem& s
 }
 
 Status SqliteSessionIndex::add_representation(const RepresentationRow& representation, std::uint64_t made) {
-    const std::string digest = digest_of(representation);
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
     if (Status begun = transaction.begin(); !begun) return begun;
@@ -312,10 +315,7 @@ Status SqliteSessionIndex::add_representation(const RepresentationRow& represent
     if (!found) return found.error();
     if (!*found) return no_session();
     if (Status set = set_life(representation.session, row.number(0), made); !set) return set;
-    Statement insert = database_.prepare("INSERT INTO representations VALUES (?, ?, ?, ?, ?)");
-    insert.bind(representation.session).bind(representation.number);
-    insert.bind_text(representation.item.blob).bind_blob(representation.item.info).bind_text(digest);
-    if (Status done = insert.run(); !done) return done;
+    if (Status done = insert(representation); !done) return done;
     return transaction.commit();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 
@@ -16,6 +17,9 @@ public:
     /// \return CORRUPT for one that is damaged, UNSUPPORTED for one of a later version, UNAVAILABLE, LIMIT_EXCEEDED.
     [[nodiscard]] static Expected<std::unique_ptr<SqliteSessionIndex>> open(const std::filesystem::path& file,
                                                                             bool writable = true);
+
+    /// All of another index into this one, which is empty; without a clock where there is none. \return as SessionIndex says.
+    [[nodiscard]] Status take_over(const IndexContents& contents);
 
     [[nodiscard]] Expected<IndexContents> load() override;
     [[nodiscard]] Status add_session(const SessionRow& session) override;
@@ -39,10 +43,9 @@ private:
     [[nodiscard]] Status sign();
     [[nodiscard]] Status set_clock(std::int64_t now);
     [[nodiscard]] Status set_life(std::uint64_t session, std::int64_t expires, std::uint64_t made);
-    [[nodiscard]] Status load_clock(IndexContents& contents);
-    [[nodiscard]] Status load_sessions(IndexContents& contents);
-    [[nodiscard]] Status load_representations(IndexContents& contents);
-    [[nodiscard]] Status load_jobs(IndexContents& contents);
+    [[nodiscard]] Status load_rows(const char* sql, const std::function<void(const Statement&)>& take);
+    [[nodiscard]] Status insert(const SessionRow& session);
+    [[nodiscard]] Status insert(const RepresentationRow& representation);
     [[nodiscard]] Expected<SessionRow> find_session(std::uint64_t number);
     [[nodiscard]] Status for_each(const char* sql, const std::vector<std::uint64_t>& numbers);
 

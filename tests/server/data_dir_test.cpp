@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <string>
@@ -225,6 +226,71 @@ TEST_F(DataDirTest, AnIndexThatLostARowOfItsPagesIsDamaged) {
     }
     ASSERT_TRUE(open());
     EXPECT_THAT(told_, HasSubstr("put aside untouched"));
+}
+
+/// An index of 100 sessions with a representation each, seven sessions a page.
+class DamagedIndexTest : public DataDirTest {
+protected:
+    static constexpr std::uint64_t kSessions = 100;
+
+    void SetUp() override {
+        ASSERT_TRUE(open());
+        {
+            const auto index = *SqliteSessionIndex::open(file());
+            for (std::uint64_t number = 1; number <= kSessions; ++number) {
+                const SessionRow session{
+                    number, std::to_string(number), "ann", 0, 5, 0, {std::to_string(number), std::string(500, 'x')}};
+                ASSERT_TRUE(index->add_session(session));
+                ASSERT_TRUE(index->add_representation({number, 1, {"m" + std::to_string(number), "info"}}, 1));
+            }
+        }
+        std::ifstream stream(file(), std::ios::binary);
+        written_ = {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+    std::filesystem::path file() const { return directory_ / "sessions.db"; }
+
+    void put(const std::string& bytes) {
+        std::filesystem::remove_all(directory_ / "damaged-1");
+        for (const char* suffix : {"-wal", "-shm"}) std::filesystem::remove(file().string() + suffix);
+        std::ofstream(file(), std::ios::binary) << bytes;
+        told_.clear();
+    }
+
+    /// Sessions that are served from these bytes.
+    std::size_t served_of(const std::string& bytes) {
+        put(bytes);
+        {
+            const auto opened = open();
+            EXPECT_TRUE(opened) << opened.error().message;
+        }
+        const auto contents = (*SqliteSessionIndex::open(file()))->load();
+        EXPECT_TRUE(contents) << contents.error().message;
+        const auto is_sound = [](const SessionRow& row) { return row.sound; };
+        return static_cast<std::size_t>(std::count_if(contents->sessions.begin(), contents->sessions.end(), is_sound));
+    }
+
+    std::string written_;
+};
+
+TEST_F(DamagedIndexTest, ABitThatChangesLosesAPageOfSessionsAtMost) {
+    constexpr std::size_t kStep = 1999;
+    constexpr std::size_t kPage = 4096;  // the first one has the schema, and nothing can be read without
+    for (std::size_t at = kPage + 100; at < written_.size(); at += kStep) {
+        std::string damaged = written_;
+        damaged[at] = static_cast<char>(damaged[at] ^ 1 << at % 8);
+        EXPECT_GE(served_of(damaged) + 8, kSessions) << at << ": " << told_;
+    }
+}
+
+TEST_F(DamagedIndexTest, ASchemaThatChangedIsDamageAndSessionsComeOver) {
+    std::string damaged = written_;
+    const std::size_t column = damaged.find("made INTEGER");
+    ASSERT_NE(column, std::string::npos);
+    damaged[column] = 'n';
+    EXPECT_EQ(served_of(damaged), kSessions);
+    EXPECT_THAT(told_, HasSubstr("its schema is not as it was written; put aside untouched in "));
+    EXPECT_THAT(told_, HasSubstr("100 sessions with 100 representations"));
 }
 
 }  // namespace
