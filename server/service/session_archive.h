@@ -45,7 +45,7 @@ struct Restored {
 struct ArchiveUse {
     std::uint64_t bytes = 0;
     std::uint64_t limit = 0;      ///< bytes; 0: none
-    std::uint32_t set_aside = 0;  ///< sessions that are damaged; they are kept and not served
+    std::uint32_t set_aside = 0;  ///< sessions, and indices of sessions, that are damaged; they are kept and not served
 };
 
 /// Where sessions outlive the server. Thread-safe. Every call but `use` may wait for a disk.

@@ -155,7 +155,7 @@ Status DataDir::open_archive(std::uint64_t quota, const Report& report) {
     Expected<std::unique_ptr<FileBlobStore>> blobs = FileBlobStore::open(directory_ / kBlobsName, quota, writable_);
     if (!blobs) return blobs.error();
     archive_ = std::make_unique<StoredSessions>(*std::move(blobs), *std::move(index), DiskReserve(directory_ / kReserveName),
-                                                quota, report);
+                                                quota, report, count_damaged(directory_));
     return Done{};
 }
 

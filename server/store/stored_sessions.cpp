@@ -70,12 +70,13 @@ std::vector<std::string> keys_of(const std::vector<BlobEntry>& blobs) {
 }  // namespace
 
 StoredSessions::StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, DiskReserve reserve,
-                               std::uint64_t quota, Report report)
+                               std::uint64_t quota, Report report, std::uint32_t damaged)
     : blobs_(std::move(blobs)),
       index_(std::move(index)),
       reserve_(std::move(reserve)),
       quota_(quota),
-      report_(std::make_shared<const Report>(std::move(report))) {}
+      report_(std::make_shared<const Report>(std::move(report))),
+      aside_(damaged) {}
 
 Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
     const Expected<IndexContents> contents = index_->load();

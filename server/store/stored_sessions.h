@@ -21,9 +21,9 @@ namespace vsplit::store {
 /// removes.
 class StoredSessions final : public service::SessionArchive {
 public:
-    /// `quota`: bytes of disk, for `use` alone.
+    /// `quota`: bytes of disk; `damaged`: indices that were put aside. Both are for `use` alone.
     StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, DiskReserve reserve,
-                   std::uint64_t quota, Report report);
+                   std::uint64_t quota, Report report, std::uint32_t damaged);
 
     /// A session that is damaged is set aside and reported; the others are served.
     [[nodiscard]] Expected<service::Restored> restore(service::MemoryBudget& budget) override;
@@ -61,7 +61,7 @@ private:
     const DiskReserve reserve_;
     const std::uint64_t quota_;
     const std::shared_ptr<const Report> report_;
-    std::atomic<std::uint32_t> aside_ = 0;
+    std::atomic<std::uint32_t> aside_;  // with indices, whose sessions nobody can count
     // Shared from before a blob is put until the index names it; alone while unused ones are removed.
     std::shared_mutex collecting_;
 };

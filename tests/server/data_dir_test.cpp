@@ -119,8 +119,10 @@ TEST_F(DataDirTest, ADamagedIndexIsPutAsideAsItIs) {
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), damage);
     EXPECT_TRUE(std::filesystem::exists(directory_ / "damaged-1" / "blobs" / "ab" / "something"));
     std::ofstream(directory_ / "sessions.db") << damage;
-    ASSERT_TRUE(open());
+    auto again = open();
+    ASSERT_TRUE(again);
     EXPECT_TRUE(std::filesystem::exists(directory_ / "damaged-2" / "sessions.db"));
+    EXPECT_EQ(again->take_archive()->use().set_aside, 2U) << "an alert fires for them";
 }
 
 /// An index whose server was killed: sessions in its log, none in itself.
