@@ -66,6 +66,13 @@ Status show_session(service::MeshingService& service, const service::Caller& cal
     return Done{};
 }
 
+Status keep_alive(service::MeshingService& service, const service::Caller& caller, const std::string& id, v1::Session& response) {
+    const Expected<service::SessionSnapshot> session = service.keep_alive(id, caller);
+    if (!session) return session.error();
+    response = to_proto(*session);
+    return Done{};
+}
+
 Status list_sessions(service::MeshingService& service, const service::Caller& caller, const v1::ListSessionsRequest& request,
                      v1::ListSessionsResponse& response) {
     Expected<service::SessionPage> page = service.sessions().list(request.page_size(), request.page_token(), caller.owner);
@@ -168,10 +175,10 @@ grpc::ServerUnaryReactor* MeshingRpcs::GetSession(Context* context, const v1::Ge
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::KeepAlive(Context* context, const v1::KeepAliveRequest* request, v1::Session* response) {
-    return answer_now(context, RpcWatch(ledger_, *context, "KeepAlive", request->session()),
-                      [this, request, response](const service::Caller& caller) {
-                          return show_session(service_, caller, request->session(), *response);
-                      });
+    return answer_later(context, RpcWatch(ledger_, *context, "KeepAlive", request->session()),
+                        &service::MeshingService::disk_errand, [this, request, response](const service::Caller& caller) {
+                            return keep_alive(service_, caller, request->session(), *response);
+                        });
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::ListSessions(Context* context, const v1::ListSessionsRequest* request,

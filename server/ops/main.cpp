@@ -152,9 +152,14 @@ Expected<std::unique_ptr<rest::RestServer>> start_rest(const ServerOptions& opti
     return rest::RestServer::start(address->host, address->port, std::move(backend), std::move(rest), observe, std::move(tls));
 }
 
-void drain(rpc::GrpcServer& server, rest::RestServer* rest, std::chrono::seconds grace) {
+void drain(rpc::GrpcServer& server, rest::RestServer* rest, service::MeshingService& service, std::chrono::seconds grace) {
     if (rest != nullptr) rest->drain();
-    if (!server.drain(grace)) spdlog::warn("cut off what was not done after {} s", grace.count());
+    if (!server.drain(grace)) {
+        spdlog::warn("cut off what was not done after {} s", grace.count());
+        // Before the connections are: clients are told why, and what they asked for is known after the next start.
+        service.end_sessions();
+        server.drain(kFlushTime);
+    }
     if (rest != nullptr) rest->shutdown(kFlushTime);
     server.shutdown(std::chrono::milliseconds(0));
 }
@@ -196,7 +201,7 @@ int serve(const ServerOptions& options, const ListenAddress& address, const std:
     const int signal = wait_for_stop_signal();
     spdlog::info("signal {}: draining for at most {} s; a second signal ends it at once", signal, options.drain);
     std::thread([] { std::_Exit(128 + wait_for_stop_signal()); }).detach();
-    drain(**server, rest->get(), std::chrono::seconds(options.drain));
+    drain(**server, rest->get(), service, std::chrono::seconds(options.drain));
     service.shutdown();
     spdlog::info("stopped");
     return 0;

@@ -42,6 +42,13 @@ Expected<SessionSnapshot> MeshingService::snapshot(std::string_view session, con
     return (*found)->snapshot();
 }
 
+Expected<SessionSnapshot> MeshingService::keep_alive(std::string_view session, const Caller& caller) {
+    const Expected<std::shared_ptr<Session>> found = sessions_.find(session, caller.owner);
+    if (!found) return found.error();
+    if (Status noted = sessions_.note_use(*found); !noted) return noted.error();
+    return (*found)->snapshot();
+}
+
 Expected<SessionSnapshot> MeshingService::create_session(const Caller& caller) {
     const Expected<std::shared_ptr<Session>> created = sessions_.create(nullptr, caller.owner);
     if (!created) return created.error();
@@ -106,12 +113,14 @@ ServiceLoad MeshingService::load() const {
     return {sessions_.count(), methods.running, methods.waiting + sessions_.waiting_jobs(), memory_.use(), archive_->use()};
 }
 
-void MeshingService::cancel_all() { sessions_.clear({Cause::kUnavailable, "the server is shutting down", ""}); }
+void MeshingService::end_sessions() {
+    static_cast<void>(sessions_.note_time());
+    sessions_.clear({Cause::kUnavailable, "the server is shutting down", ""});
+}
 
 void MeshingService::shutdown() {
     sweeper_.stop();
-    static_cast<void>(sessions_.note_time());
-    cancel_all();
+    end_sessions();
     methods_.shutdown();
     errands_.shutdown();
     intake_.shutdown();

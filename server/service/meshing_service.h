@@ -51,6 +51,10 @@ public:
     /// Whoever calls it a use of the session. \return NOT_FOUND.
     [[nodiscard]] Expected<SessionSnapshot> snapshot(std::string_view session, const Caller& caller = {});
 
+    /// A use of the session that outlives the process. May wait for the archive.
+    /// \return NOT_FOUND, what SessionArchive::note_time returns.
+    [[nodiscard]] Expected<SessionSnapshot> keep_alive(std::string_view session, const Caller& caller = {});
+
     /// An empty session. May wait for the archive. \return LIMIT_EXCEEDED, what SessionArchive::add returns.
     [[nodiscard]] Expected<SessionSnapshot> create_session(const Caller& caller = {});
 
@@ -81,10 +85,11 @@ public:
     /// O(sessions).
     [[nodiscard]] ServiceLoad load() const;
 
-    /// Forgets all sessions and cancels their methods, whose events are called.
-    void cancel_all();
+    /// The server ends: forgets all sessions, which the archive keeps, and stops their methods, whose events are called with
+    /// UNAVAILABLE. The archive remembers these methods as cut off. May wait for the archive.
+    void end_sessions();
 
-    /// cancel_all, and waits for the last worker. No event comes afterwards.
+    /// end_sessions, and waits for the last worker. No event comes afterwards.
     void shutdown();
 
 private:

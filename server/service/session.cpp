@@ -21,7 +21,8 @@ Session::Session(SessionRecord record, Clock::time_point began, const SessionHos
       host_(host),
       create_time_(record.create_time),
       queue_(std::make_shared<JobQueue>(host.workers, host.options.limits.waiting_jobs)),
-      expires_(began + record.expires),
+      expires_(record.expires ? began + *record.expires : Clock::now() + host.options.session_ttl),
+      used_(!record.expires),
       source_(std::move(record.source)),
       representations_(std::move(record.representations)),
       unfinished_(std::move(record.unfinished)),
@@ -69,14 +70,20 @@ std::optional<Session::Clock::time_point> Session::take_expiry() {
     return expires_;
 }
 
+void Session::put_expiry_back() {
+    const std::lock_guard lock(mutex_);
+    used_ = true;
+}
+
 Status Session::require_idle() const {
     const std::lock_guard lock(mutex_);
     return require_idle_locked();
 }
 
 Status Session::require_open_locked() const {
-    if (closed_) return Error{Cause::kNotFound, "the session was deleted in the meantime", "session"};
-    return Done{};
+    if (!closed_) return Done{};
+    if (closed_->cause == Cause::kUnavailable) return *closed_;  // the server ends, and the session is there afterwards
+    return Error{Cause::kNotFound, "the session was deleted in the meantime", "session"};
 }
 
 Status Session::require_idle_locked() const {
@@ -190,7 +197,7 @@ Expected<std::shared_ptr<Job>> Session::enqueue(const MethodOptions& options, co
 void Session::close(const Error& why) {
     {
         const std::lock_guard lock(mutex_);
-        closed_ = true;
+        closed_ = why;
     }
     queue_->close(why);
 }

@@ -43,6 +43,9 @@ public:
     /// When it expires, where that was put off since it was asked last.
     [[nodiscard]] std::optional<Clock::time_point> take_expiry();
 
+    /// What take_expiry returned could not be told: it returns it again.
+    void put_expiry_back();
+
     /// Whether `set_source` could be done now. \return BUSY, NOT_FOUND when closed.
     [[nodiscard]] Status require_idle() const;
 
@@ -81,7 +84,7 @@ public:
     /// Jobs that wait for another one of this session.
     [[nodiscard]] std::size_t waiting_jobs() const { return queue_->waiting(); }
 
-    /// Cancels all jobs; nothing can be put into the session any more.
+    /// Cancels all jobs; nothing can be put into the session any more. Where `why` is UNAVAILABLE, who tries is told that.
     void close(const Error& why);
 
 private:
@@ -106,7 +109,7 @@ private:
     Clock::time_point expires_;
     bool used_ = false;  // since take_expiry
     int held_ = 0;
-    bool closed_ = false;
+    std::optional<Error> closed_;
     bool changing_ = false;  // an upload is on its way into the archive
     std::shared_ptr<const SourceMesh> source_;
     Pointers representations_;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,8 +27,8 @@ struct SessionRecord {
     std::string id{};
     std::string owner{};
     std::chrono::system_clock::time_point create_time{};
-    std::chrono::milliseconds expires{};  ///< in service time, see SessionArchive
-    std::uint64_t made = 0;               ///< representations ever
+    std::optional<std::chrono::milliseconds> expires{};  ///< in service time, see SessionArchive; empty: after its full time
+    std::uint64_t made = 0;                              ///< representations ever
     std::shared_ptr<const SourceMesh> source{};
     std::vector<std::shared_ptr<const Representation>> representations{};
     std::vector<UnfinishedMethod> unfinished{};
@@ -44,7 +45,7 @@ struct Restored {
 struct ArchiveUse {
     std::uint64_t bytes = 0;
     std::uint64_t limit = 0;      ///< bytes; 0: none
-    std::uint32_t set_aside = 0;  ///< sessions that are damaged; they are kept and not served
+    std::uint32_t set_aside = 0;  ///< sessions, and indices of sessions, that are damaged; they are kept and not served
 };
 
 /// Where sessions outlive the server. Thread-safe. Every call but `use` may wait for a disk.

@@ -12,8 +12,7 @@ namespace {
 
 Error unknown_session(std::string_view id) {
     return {Cause::kNotFound,
-            "no session " + quoted(id) + "; it may have been deleted or have expired, and CreateSession makes a new one",
-            "session"};
+            "no session " + quoted(id) + "; it may have been deleted or have expired, and a new one can be created", "session"};
 }
 
 // A token is the number of the last session on the page before; 0 stands for none.
@@ -63,6 +62,7 @@ std::size_t SessionStore::waiting_jobs() const {
 }
 
 Status SessionStore::require_room_locked(std::string_view owner) const {
+    if (ended_) return *ended_;
     const Limits& limits = host_.options.limits;
     const auto held = by_owner_.find(owner);
     if (!owner.empty() && held != by_owner_.end() && held->second >= limits.sessions_by_client) {
@@ -123,6 +123,7 @@ Expected<std::shared_ptr<Session>> SessionStore::create(std::shared_ptr<const So
 
 Expected<std::shared_ptr<Session>> SessionStore::find(std::string_view id, std::string_view owner) {
     const std::lock_guard lock(mutex_);
+    if (ended_) return *ended_;
     const auto number = numbers_.find(std::string(id));
     if (number == numbers_.end()) return unknown_session(id);
     const std::shared_ptr<Session>& session = sessions_.at(number->second);
@@ -198,14 +199,32 @@ std::vector<std::shared_ptr<Session>> SessionStore::take_expired() {
 }
 
 Status SessionStore::note_time() {
-    std::vector<std::pair<std::uint64_t, std::chrono::milliseconds>> expire;
+    std::vector<std::shared_ptr<Session>> all;
     {
         const std::lock_guard lock(mutex_);
-        for (const auto& [number, session] : sessions_) {
-            if (const auto time = session->take_expiry()) expire.emplace_back(number, service_time(*time));
-        }
+        all.reserve(sessions_.size());
+        for (const auto& [number, session] : sessions_) all.push_back(session);
     }
-    return host_.archive.note_time(service_time(Session::Clock::now()), expire);
+    return note_time(all);
+}
+
+Status SessionStore::note_use(const std::shared_ptr<Session>& session) { return note_time({session}); }
+
+Status SessionStore::note_time(const std::vector<std::shared_ptr<Session>>& sessions) {
+    std::vector<std::pair<std::uint64_t, std::chrono::milliseconds>> expire;
+    std::vector<std::shared_ptr<Session>> told;
+    const std::lock_guard lock(noting_);
+    for (const std::shared_ptr<Session>& session : sessions) {
+        const auto time = session->take_expiry();
+        if (!time) continue;
+        expire.emplace_back(session->number(), service_time(*time));
+        told.push_back(session);
+    }
+    Status noted = host_.archive.note_time(service_time(Session::Clock::now()), expire);
+    for (const std::shared_ptr<Session>& session : told) {
+        if (!noted) session->put_expiry_back();
+    }
+    return noted;
 }
 
 // Lock held.
@@ -220,6 +239,7 @@ void SessionStore::clear(const Error& why) {
     Sessions removed;
     {
         const std::lock_guard lock(mutex_);
+        ended_ = why;
         removed.swap(sessions_);
         numbers_.clear();
         by_owner_.clear();

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -61,7 +62,10 @@ public:
     /// Tells the archive what time it is and which sessions were used. \return what it returns. O(sessions).
     [[nodiscard]] Status note_time();
 
-    /// Closes all; the archive keeps them.
+    /// Tells the archive that this session was used. May wait for it. \return what SessionArchive::note_time returns.
+    [[nodiscard]] Status note_use(const std::shared_ptr<Session>& session);
+
+    /// Closes all; the archive keeps them. From now on `find` and `create` return `why`.
     void clear(const Error& why);
 
 private:
@@ -71,17 +75,20 @@ private:
     [[nodiscard]] Expected<std::uint64_t> begin_session(const std::string& owner);
     void publish(const std::shared_ptr<Session>& session);
     void forget_owner(const std::string& owner);
+    [[nodiscard]] Status note_time(const std::vector<std::shared_ptr<Session>>& sessions);
     [[nodiscard]] std::chrono::milliseconds service_time(Session::Clock::time_point time) const;
     [[nodiscard]] std::vector<std::shared_ptr<Session>> take_expired();
 
     const SessionHost host_;
     Session::Clock::time_point began_ = Session::Clock::now();  // when service time was 0
-    mutable std::mutex mutex_;                                  // not held while the archive is called
-    Sessions sessions_;                                         // by number
+    std::mutex noting_;         // held while the archive is told the time, which must not run backwards
+    mutable std::mutex mutex_;  // not held while the archive is called
+    Sessions sessions_;         // by number
     std::unordered_map<std::string, std::uint64_t> numbers_;
     std::map<std::string, std::uint32_t, std::less<>> by_owner_;  // sessions, with those on their way; none is no entry
     std::size_t count_ = 0;                                       // sessions, with those on their way
     std::uint64_t last_number_ = 0;
+    std::optional<Error> ended_;          // why all sessions were closed
     std::vector<std::uint64_t> expired_;  // sessions that the archive has still to forget
 };
 

@@ -4,21 +4,45 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <fstream>
+#include <iterator>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "service/disk_error.h"
+#include "store/damage.h"
+#include "store/disk_reserve.h"
 #include "store/file_blob_store.h"
+#include "store/salvage.h"
 #include "store/sqlite_session_index.h"
+#include "store/stored_sessions.h"
+#include "store/wal_check.h"
 
 namespace vsplit::store {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kIndex = "sessions.db";
-constexpr const char* kBlobs = "blobs";
+constexpr const char* kReserveName = "reserve";
+
+/// Whether what is there is of the kind that it should be. What is not there is.
+Status require_kinds(const fs::path& directory) {
+    for (const std::string& name : {std::string(), std::string(kIndexName), std::string(kBlobsName),
+                                    kBlobsName + std::string("/incoming"), std::string("uploads"), std::string(kReserveName)}) {
+        const fs::path path = name.empty() ? directory : directory / name;
+        const bool file = name == kIndexName || name == kReserveName;
+        std::error_code failed;
+        const fs::file_type type = fs::status(path, failed).type();
+        if (type == fs::file_type::not_found || type == (file ? fs::file_type::regular : fs::file_type::directory)) continue;
+        if (failed) return service::disk_error("cannot look at " + path.string(), failed.value());
+        return Error{Cause::kInvalidOption,
+                     path.string() + " is not a " + (file ? "file" : "directory") + ", as vsplitd needs it; move it away",
+                     "data_dir"};
+    }
+    return Done{};
+}
 
 /// For its owner alone, where it is made; one that is there is somebody's decision.
 Status make_directories(const fs::path& directory) {
@@ -43,50 +67,95 @@ Expected<int> lock(const fs::path& directory) {
                  directory.string() + " is the data directory of another vsplitd that runs; use another one", "data_dir"};
 }
 
-/// Puts what cannot be read out of the way, as it is. Returns where.
-Expected<fs::path> put_aside(const fs::path& directory) {
-    std::error_code failed;
-    fs::path aside;
-    for (int number = 1; aside.empty() || fs::exists(aside, failed); ++number) {
-        aside = directory / ("damaged-" + std::to_string(number));
+std::uint64_t size_of(const fs::path& file) {
+    std::error_code missing;
+    const std::uint64_t size = fs::file_size(file, missing);
+    return missing ? 0 : size;
+}
+
+fs::path log_of(const fs::path& index) { return index.string() + "-wal"; }
+
+std::string read_file(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// SQLite deletes the log of a database that is not there, and reads another one up to what is damaged, both in silence. What it
+/// would lose is kept and told first.
+Status look_over(const fs::path& directory, bool writable, const Report& report) {
+    const fs::path index = directory / kIndexName;
+    if (size_of(log_of(index)) == 0) return Done{};
+    const bool lost = size_of(index) == 0;
+    const std::string log = lost ? "" : read_file(log_of(index));
+    const std::uint64_t passed_over = transactions_lost(std::as_bytes(std::span(log)));
+    if (!lost && passed_over == 0) return Done{};
+    const std::string what = lost ? "the data directory's index is missing or empty, and its log is not"
+                                  : "the log of the data directory's index is damaged; what at least " +
+                                        std::to_string(passed_over) + " changes behind the damage did is lost";
+    if (!writable) {
+        report(what);
+        return Done{};
     }
-    fs::create_directory(aside, failed);
-    for (const std::string& name :
-         {std::string(kIndex), std::string(kIndex) + "-wal", std::string(kIndex) + "-shm", std::string(kBlobs)}) {
-        if (!failed && fs::exists(directory / name)) fs::rename(directory / name, aside / name, failed);
-    }
-    if (failed) return service::disk_error("cannot put its damaged index aside in " + aside.string(), failed.value());
-    return aside;
+    const Expected<fs::path> kept = keep_damaged(directory, lost ? Original::kGoes : Original::kStays);
+    if (!kept) return kept.error();
+    report(what + "; " + (lost ? "put aside untouched in " : "kept as it was in ") + kept->string() +
+           (lost ? ", and begun anew without its sessions" : ""));
+    return Done{};
+}
+
+/// In the place of an index that is damaged, with what is sound of it.
+Expected<std::unique_ptr<SqliteSessionIndex>> begin_anew(const fs::path& directory, const Error& damage, const Report& report) {
+    const Expected<fs::path> aside = keep_damaged(directory, Original::kGoes);
+    if (!aside) return aside.error();
+    const IndexContents sound = salvage(*aside / kIndexName);
+    Expected<std::unique_ptr<SqliteSessionIndex>> index = SqliteSessionIndex::open(directory / kIndexName);
+    if (!index) return index;
+    if (Status taken = (*index)->take_over(sound); !taken) return taken.error();
+    report(damage.message + "; put aside untouched in " + aside->string() +
+           ", and begun anew with what is sound of it: " + std::to_string(sound.sessions.size()) + " sessions with " +
+           std::to_string(sound.representations.size()) + " representations");
+    return index;
 }
 
 }  // namespace
 
 Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, const Report& report) {
-    const bool writable = !fs::exists(directory / kIndex) || access(directory.c_str(), W_OK) == 0;
+    std::error_code unknown;
+    const bool has_index = fs::exists(directory / kIndexName, unknown);
+    if (unknown) return service::disk_error("cannot look into the data directory " + directory.string(), unknown.value());
+    const bool writable = !has_index || access(directory.c_str(), W_OK) == 0;
     if (!writable)
         report(service::disk_error("the data directory " + directory.string() + " is served, and nothing new is kept in it")
                    .message);
+    if (Status kinds = require_kinds(directory); !kinds) return kinds.error();
     if (Status made = writable ? make_directories(directory) : Status(Done{}); !made) return made.error();
     const Expected<int> descriptor = lock(directory);
     if (!descriptor) return descriptor.error();
     DataDir opened(directory, *descriptor, writable);
-    if (Status ready = opened.open_archive(quota, report); !ready) return ready.error();
+    Status ready = opened.open_archive(quota, report);
+    if (!ready && writable && ready.error().cause == Cause::kLimitExceeded) {
+        DiskReserve(directory / kReserveName).give();
+        ready = opened.open_archive(quota, report);
+    }
+    if (!ready) return ready.error();
     return opened;
 }
 
-Status DataDir::open_archive(std::uint64_t quota, const Report& report) {
-    Expected<std::unique_ptr<SqliteSessionIndex>> index = SqliteSessionIndex::open(directory_ / kIndex, writable_);
-    if (!index && writable_ && index.error().cause == Cause::kCorrupt) {
-        const Expected<fs::path> aside = put_aside(directory_);
-        if (!aside) return aside.error();
-        report(index.error().message + "; put aside untouched in " + aside->string() + ", and begun anew without its sessions");
-        index = SqliteSessionIndex::open(directory_ / kIndex);
-    }
+Expected<std::unique_ptr<SessionIndex>> DataDir::open_index(const Report& report) const {
+    if (Status looked = look_over(directory_, writable_, report); !looked) return looked.error();
+    Expected<std::unique_ptr<SqliteSessionIndex>> index = SqliteSessionIndex::open(directory_ / kIndexName, writable_);
+    if (!index && writable_ && index.error().cause == Cause::kCorrupt) index = begin_anew(directory_, index.error(), report);
     if (!index) return index.error();
-    Expected<std::unique_ptr<FileBlobStore>> blobs = FileBlobStore::open(directory_ / kBlobs, quota, writable_);
+    return std::unique_ptr<SessionIndex>(*std::move(index));
+}
+
+Status DataDir::open_archive(std::uint64_t quota, const Report& report) {
+    Expected<std::unique_ptr<SessionIndex>> index = open_index(report);
+    if (!index) return index.error();
+    Expected<std::unique_ptr<FileBlobStore>> blobs = FileBlobStore::open(directory_ / kBlobsName, quota, writable_);
     if (!blobs) return blobs.error();
-    archive_ = std::make_unique<StoredSessions>(*std::move(blobs), *std::move(index), DiskReserve(directory_ / "reserve"), quota,
-                                                report);
+    archive_ = std::make_unique<StoredSessions>(*std::move(blobs), *std::move(index), DiskReserve(directory_ / kReserveName),
+                                                quota, report, count_damaged(directory_));
     return Done{};
 }
 

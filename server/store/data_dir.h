@@ -4,7 +4,8 @@
 #include <memory>
 
 #include "service/session_archive.h"
-#include "store/stored_sessions.h"
+#include "store/report.h"
+#include "store/session_index.h"
 #include "vsplit/base/expected.h"
 
 namespace vsplit::store {
@@ -15,7 +16,7 @@ namespace vsplit::store {
 ///     blobs/          the blobs; blobs/aside/ those that the index does not know
 ///     reserve         room that a full disk leaves for deleting sessions
 ///     uploads/        mesh files on their way
-///     damaged-1/ ...  an index that could not be read and its blobs, put there untouched
+///     damaged-1/ ...  an index that was damaged and its blobs, kept there as they were
 class DataDir {
 public:
     /// Makes the directory if need be. No other server may have it. One that may not be written to is served all the same, and
@@ -39,6 +40,7 @@ private:
     DataDir(std::filesystem::path directory, int lock, bool writable)
         : directory_(std::move(directory)), lock_(lock), writable_(writable) {}
 
+    [[nodiscard]] Expected<std::unique_ptr<SessionIndex>> open_index(const Report& report) const;
     [[nodiscard]] Status open_archive(std::uint64_t quota, const Report& report);
 
     std::filesystem::path directory_;

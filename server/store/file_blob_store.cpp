@@ -69,9 +69,10 @@ bool sync_directory(const fs::path& directory) {
 // What was being written when a server ended: its names are numbers.
 void remove_incoming(const fs::path& directory) {
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(directory, ignored)) {
-        const std::string name = entry.path().filename().string();
-        if (name.find_first_not_of("0123456789") == std::string::npos) fs::remove(entry.path(), ignored);
+    std::error_code failed;
+    for (fs::directory_iterator at(directory, failed), end; !failed && at != end; at.increment(failed)) {
+        const std::string name = at->path().filename().string();
+        if (name.find_first_not_of("0123456789") == std::string::npos) fs::remove(at->path(), ignored);
     }
 }
 
@@ -150,7 +151,10 @@ std::string FileBlobStore::key_of(std::span<const Bytes> parts) const { return g
 
 Expected<BlobEntry> FileBlobStore::put(std::span<const Bytes> parts) {
     BlobEntry blob{key_of(parts), size_of(parts)};
-    if (fs::exists(place_of(blob.key))) {
+    std::error_code failed;
+    const bool there = fs::exists(place_of(blob.key), failed);
+    if (failed) return service::disk_error("cannot keep a mesh in the data directory", failed.value());
+    if (there) {
         if (get(blob.key)) return blob;
         if (Status aside = put_aside(blob.key); !aside) return aside.error();  // a damaged one
     }

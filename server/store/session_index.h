@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,8 +45,8 @@ struct JobRow {
 
 /// Everything, in order of numbers.
 struct IndexContents {
-    std::int64_t now = 0;
-    std::uint64_t last_session = 0;  ///< the largest number there ever was
+    std::optional<std::int64_t> now;  ///< empty: it is not as it was written
+    std::uint64_t last_session = 0;   ///< the largest number there ever was
     std::vector<SessionRow> sessions;
     std::vector<RepresentationRow> representations;
     std::vector<JobRow> jobs;

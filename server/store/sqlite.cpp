@@ -1,15 +1,30 @@
 #include "store/sqlite.h"
 
+#include <cerrno>
+#include <system_error>
+
 #include "service/limits.h"
 
 namespace vsplit::store {
 
 namespace {
 
+// An operator who looks with another program may hold it for a moment.
+constexpr int kBusyMilliseconds = 5000;
+
 bool has_log(const std::filesystem::path& file) {
     std::filesystem::path log = file;
     log += "-wal";
-    return std::filesystem::exists(log);
+    std::error_code unknown;
+    return std::filesystem::exists(log, unknown);
+}
+
+// Whether the last call failed for want of room.
+bool is_full(sqlite3* handle) {
+    const int code = sqlite3_errcode(handle);
+    if (code == SQLITE_FULL) return true;
+    const int number = sqlite3_system_errno(handle);
+    return (code == SQLITE_IOERR || code == SQLITE_CANTOPEN) && (number == ENOSPC || number == EDQUOT);
 }
 
 // A database that nobody writes to can be read where not even locks can be written: DataDir holds one for it.
@@ -37,6 +52,7 @@ Expected<Database> Database::open(const std::filesystem::path& file, bool writab
     Database database(handle);
     if (handle == nullptr) return Error{Cause::kLimitExceeded, "no memory to open " + file.string(), ""};
     if (result != SQLITE_OK) return database.error();
+    sqlite3_busy_timeout(handle, kBusyMilliseconds);
     if (writable) return database;
     // The index of its log is kept in memory then, not in a file beside it.
     if (Status alone = database.run("PRAGMA locking_mode = EXCLUSIVE"); !alone) return alone.error();
@@ -55,16 +71,19 @@ Statement Database::prepare(const char* sql) {
 }
 
 Error Database::error() const {
-    const int code = sqlite3_errcode(handle_.get());
-    const std::string message = "the data directory's index: " + std::string(sqlite3_errmsg(handle_.get()));
-    switch (code) {
-        case SQLITE_FULL:
-            return {Cause::kLimitExceeded, message, "", service::kRetryAfter};
+    const std::string message = sqlite3_errmsg(handle_.get());
+    if (is_full(handle_.get())) {
+        return {Cause::kLimitExceeded, "the disk of the data directory is full (its index: " + message + ")", "",
+                service::kRetryAfter};
+    }
+    switch (sqlite3_errcode(handle_.get())) {
         case SQLITE_CORRUPT:
         case SQLITE_NOTADB:
-            return {Cause::kCorrupt, message, ""};
+        case SQLITE_ERROR:       // what the schema does not know, though it should
+        case SQLITE_CONSTRAINT:  // what contradicts it
+            return {Cause::kCorrupt, "the data directory's index: " + message, ""};
         default:
-            return {Cause::kUnavailable, message, "", service::kRetryAfter};
+            return {Cause::kUnavailable, "the data directory's index: " + message, "", service::kRetryAfter};
     }
 }
 

@@ -23,7 +23,7 @@ public:
     /// \return as `error`.
     [[nodiscard]] Status run(const char* sql);
 
-    /// \pre `sql` is well formed; a statement that the schema does not know is UNAVAILABLE when it is stepped.
+    /// \pre `sql` is well formed; a statement that the schema does not know is CORRUPT when it is stepped.
     [[nodiscard]] Statement prepare(const char* sql);
 
     [[nodiscard]] std::uint64_t last_row() const { return static_cast<std::uint64_t>(sqlite3_last_insert_rowid(handle_.get())); }

@@ -1,20 +1,19 @@
 #include "store/sqlite_session_index.h"
 
-#include <initializer_list>
+#include <algorithm>
+#include <array>
+#include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 
-#include "guard/digest.h"
+#include "store/index_rows.h"
 
 namespace vsplit::store {
 namespace {
 
-// Of the schema, in the database's user_version. 0 is a new database.
-constexpr std::int64_t kVersion = 1;
-
-// Triggers, not foreign keys, take away what is a session's: they work for whoever deletes a row, by whatever program.
-constexpr const char* kSchema = R"(
+// The schema is what these steps make, one after the other; the database's user_version is how many were taken. Triggers, not
+// foreign keys, take away what is a session's: they work for whoever deletes a row, by whatever program.
+constexpr const char* kFirstStep = R"(
 CREATE TABLE clock (now INTEGER NOT NULL) STRICT;
 INSERT INTO clock VALUES (0);
 CREATE TABLE sessions (
@@ -55,21 +54,15 @@ END;
 PRAGMA user_version = 1;
 )";
 
-// Of a row, so that bits that change in the file are seen. Lengths keep fields apart.
-std::string digest_of(std::initializer_list<std::string_view> fields) {
-    std::string all;
-    for (const std::string_view field : fields) all += std::to_string(field.size()) + ':' + std::string(field);
-    return guard::hex_digits(guard::digest_of(all));
-}
+// What changes at every use has a digest of its own.
+constexpr const char* kSecondStep = R"(
+ALTER TABLE clock ADD COLUMN digest TEXT NOT NULL DEFAULT '';
+ALTER TABLE sessions ADD COLUMN life TEXT NOT NULL DEFAULT '';  -- digest of number, expires and made
+PRAGMA user_version = 2;
+)";
 
-std::string digest_of(const SessionRow& row) {
-    return digest_of(
-        {std::to_string(row.number), row.id, row.owner, std::to_string(row.created), row.source.blob, row.source.info});
-}
-
-std::string digest_of(const RepresentationRow& row) {
-    return digest_of({std::to_string(row.session), std::to_string(row.number), row.item.blob, row.item.info});
-}
+constexpr std::array kSteps{kFirstStep, kSecondStep};
+constexpr auto kVersion = static_cast<std::int64_t>(kSteps.size());
 
 Error no_session() { return {Cause::kNotFound, "the session was deleted in the meantime", "session"}; }
 
@@ -88,6 +81,34 @@ Status check(Database& database) {
     const std::string told = *row ? statement.bytes(0) : "nothing";
     if (told == "ok") return Done{};
     return Error{Cause::kCorrupt, "the data directory's index: " + told, ""};
+}
+
+Expected<std::set<std::string>> schema_of(Database& database) {
+    Statement rows = database.prepare(
+        "SELECT type || ' ' || name || ' of ' || tbl_name || ': ' || sql FROM sqlite_schema WHERE name NOT LIKE 'sqlite_%'");
+    std::set<std::string> schema;
+    for (;;) {
+        const Expected<bool> row = rows.step();
+        if (!row) return row.error();
+        if (!*row) return schema;
+        schema.insert(rows.bytes(0));
+    }
+}
+
+// A bit that changes in the name of a column or in a trigger leaves a sound database, which works otherwise. What somebody has
+// added is no damage.
+Status check_schema(Database& database) {
+    Expected<Database> fresh = Database::open(":memory:");
+    if (!fresh) return fresh.error();
+    for (const char* step : kSteps) {
+        if (Status taken = fresh->run(step); !taken) return taken;
+    }
+    const Expected<std::set<std::string>> wanted = schema_of(*fresh);
+    if (!wanted) return wanted.error();
+    const Expected<std::set<std::string>> found = schema_of(database);
+    if (!found) return found.error();
+    if (std::includes(found->begin(), found->end(), wanted->begin(), wanted->end())) return Done{};
+    return Error{Cause::kCorrupt, "the data directory's index: its schema is not as it was written", ""};
 }
 
 }  // namespace
@@ -109,7 +130,7 @@ Status SqliteSessionIndex::prepare_schema(bool writable) {
     if (Status sound = check(database_); !sound) return sound;
     const Expected<std::int64_t> version = one_number(database_, "PRAGMA user_version");
     if (!version) return version.error();
-    if (*version == kVersion) return Done{};
+    if (*version == kVersion) return check_schema(database_);
     if (*version > kVersion) {
         return Error{Cause::kUnsupported,
                      "the data directory's index has version " + std::to_string(*version) +
@@ -118,80 +139,99 @@ Status SqliteSessionIndex::prepare_schema(bool writable) {
     }
     const Expected<std::int64_t> tables = one_number(database_, "SELECT count(*) FROM sqlite_schema");
     if (!tables) return tables.error();
-    if (*tables != 0) return Error{Cause::kCorrupt, "the data directory's index: it has tables and no version", ""};
+    if (*version < 0 || (*version == 0 && *tables != 0))
+        return Error{Cause::kCorrupt, "the data directory's index: it has tables and no version", ""};
+    if (Status taken = take_steps(*version); !taken) return taken;
+    return check_schema(database_);
+}
+
+/// From the schema of an earlier version, or none.
+Status SqliteSessionIndex::take_steps(std::int64_t version) {
     Transaction transaction(database_);
     if (Status begun = transaction.begin(); !begun) return begun;
-    if (Status made = database_.run(kSchema); !made) return made;
+    for (std::size_t step = static_cast<std::size_t>(version); step < kSteps.size(); ++step) {
+        if (Status made = database_.run(kSteps[step]); !made) return made;
+    }
+    if (Status signed_ = sign(); !signed_) return signed_;
     return transaction.commit();
+}
+
+/// Gives digests to what a version that had none has written. \pre a transaction is open.
+Status SqliteSessionIndex::sign() {
+    const Expected<std::int64_t> now = one_number(database_, "SELECT now FROM clock");
+    if (!now) return now.error();
+    if (Status set = set_clock(*now); !set) return set;
+    std::vector<SessionRow> sessions;
+    Statement rows = database_.prepare("SELECT number, expires, made FROM sessions");
+    for (Expected<bool> row = rows.step(); !row || *row; row = rows.step()) {
+        if (!row) return row.error();
+        SessionRow& session = sessions.emplace_back();
+        session.number = static_cast<std::uint64_t>(rows.number(0));
+        session.expires = rows.number(1);
+        session.made = static_cast<std::uint64_t>(rows.number(2));
+    }
+    for (const SessionRow& session : sessions) {
+        if (Status set = set_life(session.number, session.expires, session.made); !set) return set;
+    }
+    return Done{};
+}
+
+// Not an update, so that a row that was lost comes back. \pre a transaction is open.
+Status SqliteSessionIndex::set_clock(std::int64_t now) {
+    if (Status gone = database_.run("DELETE FROM clock"); !gone) return gone;
+    const std::string digest = digest_of_clock(now);
+    return database_.prepare("INSERT INTO clock (now, digest) VALUES (?, ?)").bind(now).bind_text(digest).run();
+}
+
+/// \pre lock held.
+Status SqliteSessionIndex::set_life(std::uint64_t session, std::int64_t expires, std::uint64_t made) {
+    const std::string life = life_of(session, expires, made);
+    Statement update = database_.prepare("UPDATE sessions SET expires = ?, made = ?, life = ? WHERE number = ?");
+    return update.bind(expires).bind(made).bind_text(life).bind(session).run();
 }
 
 Expected<IndexContents> SqliteSessionIndex::load() {
     const std::lock_guard lock(mutex_);
     IndexContents contents;
-    const Expected<std::int64_t> now = one_number(database_, "SELECT now FROM clock");
+    const Expected<std::optional<std::int64_t>> now = read_clock(database_);
     if (!now) return now.error();
     contents.now = *now;
     const Expected<std::int64_t> last = one_number(database_, "SELECT seq FROM sqlite_sequence WHERE name = 'sessions'");
     if (!last) return last.error();
     contents.last_session = static_cast<std::uint64_t>(*last);
-    if (Status loaded = load_sessions(contents); !loaded) return loaded.error();
-    if (Status loaded = load_representations(contents); !loaded) return loaded.error();
-    if (Status loaded = load_jobs(contents); !loaded) return loaded.error();
+    Status loaded = load_rows("SELECT * FROM sessions ORDER BY number",
+                              [&](const Statement& row) { contents.sessions.push_back(read_session(row)); });
+    if (!loaded) return loaded.error();
+    loaded = load_rows("SELECT * FROM representations ORDER BY session, number",
+                       [&](const Statement& row) { contents.representations.push_back(read_representation_row(row)); });
+    if (!loaded) return loaded.error();
+    loaded =
+        load_rows("SELECT * FROM jobs ORDER BY number", [&](const Statement& row) { contents.jobs.push_back(read_job(row)); });
+    if (!loaded) return loaded.error();
+    if (!contents.sessions.empty()) contents.last_session = std::max(contents.last_session, contents.sessions.back().number);
     return contents;
 }
 
-Status SqliteSessionIndex::load_sessions(IndexContents& contents) {
-    Statement rows = database_.prepare(
-        "SELECT number, id, owner, created, expires, made, blob, info, digest, damage IS NOT NULL FROM sessions ORDER BY number");
+Status SqliteSessionIndex::load_rows(const char* sql, const std::function<void(const Statement&)>& take) {
+    Statement rows = database_.prepare(sql);
     for (;;) {
         const Expected<bool> row = rows.step();
         if (!row) return row.error();
         if (!*row) return Done{};
-        SessionRow session;
-        session.number = static_cast<std::uint64_t>(rows.number(0));
-        session.id = rows.bytes(1);
-        session.owner = rows.bytes(2);
-        session.created = rows.number(3);
-        session.expires = rows.number(4);
-        session.made = static_cast<std::uint64_t>(rows.number(5));
-        session.source = {rows.bytes(6), rows.bytes(7)};
-        session.sound = digest_of(session) == rows.bytes(8);
-        session.set_aside = rows.number(9) != 0;
-        contents.sessions.push_back(std::move(session));
-    }
-}
-
-Status SqliteSessionIndex::load_representations(IndexContents& contents) {
-    Statement rows =
-        database_.prepare("SELECT session, number, blob, info, digest FROM representations ORDER BY session, number");
-    for (;;) {
-        const Expected<bool> row = rows.step();
-        if (!row) return row.error();
-        if (!*row) return Done{};
-        RepresentationRow made;
-        made.session = static_cast<std::uint64_t>(rows.number(0));
-        made.number = static_cast<std::uint64_t>(rows.number(1));
-        made.item = {rows.bytes(2), rows.bytes(3)};
-        made.sound = digest_of(made) == rows.bytes(4);
-        contents.representations.push_back(std::move(made));
-    }
-}
-
-Status SqliteSessionIndex::load_jobs(IndexContents& contents) {
-    Statement rows = database_.prepare("SELECT number, session, info FROM jobs ORDER BY number");
-    for (;;) {
-        const Expected<bool> row = rows.step();
-        if (!row) return row.error();
-        if (!*row) return Done{};
-        contents.jobs.push_back(
-            {static_cast<std::uint64_t>(rows.number(0)), static_cast<std::uint64_t>(rows.number(1)), rows.bytes(2)});
+        take(rows);
     }
 }
 
 Status SqliteSessionIndex::add_session(const SessionRow& session) {
-    const std::string digest = digest_of(session);
     const std::lock_guard lock(mutex_);
-    return database_.prepare("INSERT INTO sessions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, NULL)")
+    return insert(session);
+}
+
+// \pre lock held.
+Status SqliteSessionIndex::insert(const SessionRow& session) {
+    const std::string digest = digest_of(session);
+    const std::string life = life_of(session.number, session.expires, session.made);
+    return database_.prepare("INSERT INTO sessions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, NULL, ?)")
         .bind(session.number)
         .bind_text(session.id)
         .bind_text(session.owner)
@@ -201,7 +241,39 @@ Status SqliteSessionIndex::add_session(const SessionRow& session) {
         .bind_text(session.source.blob)
         .bind_blob(session.source.info)
         .bind_text(digest)
+        .bind_text(life)
         .run();
+}
+
+// \pre lock held.
+Status SqliteSessionIndex::insert(const RepresentationRow& representation) {
+    const std::string digest = digest_of(representation);
+    return database_.prepare("INSERT INTO representations VALUES (?, ?, ?, ?, ?)")
+        .bind(representation.session)
+        .bind(representation.number)
+        .bind_text(representation.item.blob)
+        .bind_blob(representation.item.info)
+        .bind_text(digest)
+        .run();
+}
+
+Status SqliteSessionIndex::take_over(const IndexContents& contents) {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(database_);
+    if (Status begun = transaction.begin(); !begun) return begun;
+    for (const SessionRow& session : contents.sessions) {
+        if (Status added = insert(session); !added) return added;
+    }
+    for (const RepresentationRow& representation : contents.representations) {
+        if (Status added = insert(representation); !added) return added;
+    }
+    Statement job = database_.prepare("INSERT INTO jobs (session, info) VALUES (?, ?)");
+    for (const JobRow& row : contents.jobs) {
+        if (Status added = job.bind(row.session).bind_blob(row.info).run(); !added) return added;
+    }
+    Status clock = contents.now ? set_clock(*contents.now) : database_.run("DELETE FROM clock");
+    if (!clock) return clock;
+    return transaction.commit();
 }
 
 /// What the digest is of, but for the source. \pre lock held.
@@ -235,17 +307,15 @@ Status SqliteSessionIndex::set_source(std::uint64_t session, const StoredItem& s
 }
 
 Status SqliteSessionIndex::add_representation(const RepresentationRow& representation, std::uint64_t made) {
-    const std::string digest = digest_of(representation);
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
     if (Status begun = transaction.begin(); !begun) return begun;
-    Statement update = database_.prepare("UPDATE sessions SET made = ? WHERE number = ?");
-    if (Status done = update.bind(made).bind(representation.session).run(); !done) return done;
-    if (database_.changes() == 0) return no_session();
-    Statement insert = database_.prepare("INSERT INTO representations VALUES (?, ?, ?, ?, ?)");
-    insert.bind(representation.session).bind(representation.number);
-    insert.bind_text(representation.item.blob).bind_blob(representation.item.info).bind_text(digest);
-    if (Status done = insert.run(); !done) return done;
+    Statement row = database_.prepare("SELECT expires FROM sessions WHERE number = ?");
+    const Expected<bool> found = row.bind(representation.session).step();
+    if (!found) return found.error();
+    if (!*found) return no_session();
+    if (Status set = set_life(representation.session, row.number(0), made); !set) return set;
+    if (Status done = insert(representation); !done) return done;
     return transaction.commit();
 }
 
@@ -269,10 +339,14 @@ Status SqliteSessionIndex::note_time(std::int64_t now, const std::vector<std::pa
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
     if (Status begun = transaction.begin(); !begun) return begun;
-    if (Status done = database_.prepare("UPDATE clock SET now = ?").bind(now).run(); !done) return done;
-    Statement update = database_.prepare("UPDATE sessions SET expires = ? WHERE number = ?");
+    if (Status done = set_clock(now); !done) return done;
+    Statement row = database_.prepare("SELECT made FROM sessions WHERE number = ?");
     for (const auto& [session, time] : expire) {
-        if (Status done = update.bind(time).bind(session).run(); !done) return done;
+        const Expected<bool> found = row.bind(session).step();
+        if (!found) return found.error();
+        const auto made = *found ? static_cast<std::uint64_t>(row.number(0)) : 0;
+        row.reset();
+        if (Status done = set_life(session, time, made); !done) return done;
     }
     return transaction.commit();
 }

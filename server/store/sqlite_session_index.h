@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 
@@ -16,6 +17,9 @@ public:
     /// \return CORRUPT for one that is damaged, UNSUPPORTED for one of a later version, UNAVAILABLE, LIMIT_EXCEEDED.
     [[nodiscard]] static Expected<std::unique_ptr<SqliteSessionIndex>> open(const std::filesystem::path& file,
                                                                             bool writable = true);
+
+    /// All of another index into this one, which is empty; without a clock where there is none. \return as SessionIndex says.
+    [[nodiscard]] Status take_over(const IndexContents& contents);
 
     [[nodiscard]] Expected<IndexContents> load() override;
     [[nodiscard]] Status add_session(const SessionRow& session) override;
@@ -35,9 +39,13 @@ private:
     explicit SqliteSessionIndex(Database database) : database_(std::move(database)) {}
 
     [[nodiscard]] Status prepare_schema(bool writable);
-    [[nodiscard]] Status load_sessions(IndexContents& contents);
-    [[nodiscard]] Status load_representations(IndexContents& contents);
-    [[nodiscard]] Status load_jobs(IndexContents& contents);
+    [[nodiscard]] Status take_steps(std::int64_t version);
+    [[nodiscard]] Status sign();
+    [[nodiscard]] Status set_clock(std::int64_t now);
+    [[nodiscard]] Status set_life(std::uint64_t session, std::int64_t expires, std::uint64_t made);
+    [[nodiscard]] Status load_rows(const char* sql, const std::function<void(const Statement&)>& take);
+    [[nodiscard]] Status insert(const SessionRow& session);
+    [[nodiscard]] Status insert(const RepresentationRow& representation);
     [[nodiscard]] Expected<SessionRow> find_session(std::uint64_t number);
     [[nodiscard]] Status for_each(const char* sql, const std::vector<std::uint64_t>& numbers);
 

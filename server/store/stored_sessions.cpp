@@ -1,7 +1,6 @@
 #include "store/stored_sessions.h"
 
 #include <algorithm>
-#include <map>
 #include <mutex>
 #include <span>
 #include <utility>
@@ -71,12 +70,13 @@ std::vector<std::string> keys_of(const std::vector<BlobEntry>& blobs) {
 }  // namespace
 
 StoredSessions::StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, DiskReserve reserve,
-                               std::uint64_t quota, Report report)
+                               std::uint64_t quota, Report report, std::uint32_t damaged)
     : blobs_(std::move(blobs)),
       index_(std::move(index)),
       reserve_(std::move(reserve)),
       quota_(quota),
-      report_(std::make_shared<const Report>(std::move(report))) {}
+      report_(std::make_shared<const Report>(std::move(report))),
+      aside_(damaged) {}
 
 Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
     const Expected<IndexContents> contents = index_->load();
@@ -102,7 +102,8 @@ Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
         Expected<service::MethodRequest> request = read_request(row.info);
         if (record != records.end() && request) record->second.unfinished.push_back({row.number, *std::move(request)});
     }
-    service::Restored restored{{}, contents->last_session, milliseconds(contents->now)};
+    service::Restored restored{{}, contents->last_session, milliseconds(contents->now.value_or(0))};
+    if (!contents->now) forget_expiry(records);
     for (const SessionRow& row : contents->sessions) {
         const auto why = damage.find(row.number);
         judge(row, why == damage.end() ? nullptr : &why->second);
@@ -111,6 +112,13 @@ Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
     put_unknown_aside(keys_of(*blobs));
     collect();
     return restored;
+}
+
+/// Without a clock nobody knows how long a session was not used.
+void StoredSessions::forget_expiry(std::map<std::uint64_t, service::SessionRecord>& sessions) const {
+    for (auto& [number, session] : sessions) session.expires.reset();
+    (*report_)(
+        "the data directory's clock is not as it was written; nothing expires by it, all sessions live their full time again");
 }
 
 Expected<service::SessionRecord> StoredSessions::recall(const SessionRow& row, const Blobs& blobs, MemoryBudget& budget) const {
@@ -193,8 +201,13 @@ Expected<BlobEntry> StoredSessions::put(std::span<const Bytes> parts) {
 
 Status StoredSessions::add(const service::SessionRecord& session) {
     const std::shared_lock lock(collecting_);
-    SessionRow row{session.number, session.id, session.owner, since_1970(session.create_time), session.expires.count(),
-                   session.made,   {}};
+    SessionRow row{session.number,
+                   session.id,
+                   session.owner,
+                   since_1970(session.create_time),
+                   session.expires.value_or(milliseconds(0)).count(),
+                   session.made,
+                   {}};
     if (session.source) {
         Expected<StoredItem> item = keep_source(*session.source);
         if (!item) return item.error();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
+#include <map>
 #include <memory>
 #include <shared_mutex>
 #include <span>
@@ -11,21 +11,19 @@
 #include "service/session_archive.h"
 #include "store/blob_store.h"
 #include "store/disk_reserve.h"
+#include "store/report.h"
 #include "store/session_index.h"
 
 namespace vsplit::store {
-
-/// Hears of what an operator should know. Any thread; must not block.
-using Report = std::function<void(const std::string& message)>;
 
 /// Sessions in a blob store and an index. A blob is loose in the index before it is put, and again when it loses a session; only
 /// loose ones are ever removed. So the end of the process leaves at most blobs that are known to be nobody's, which `restore`
 /// removes.
 class StoredSessions final : public service::SessionArchive {
 public:
-    /// `quota`: bytes of disk, for `use` alone.
+    /// `quota`: bytes of disk; `damaged`: indices that were put aside. Both are for `use` alone.
     StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, DiskReserve reserve,
-                   std::uint64_t quota, Report report);
+                   std::uint64_t quota, Report report, std::uint32_t damaged);
 
     /// A session that is damaged is set aside and reported; the others are served.
     [[nodiscard]] Expected<service::Restored> restore(service::MemoryBudget& budget) override;
@@ -52,6 +50,7 @@ private:
                                                                                   const Blobs& blobs,
                                                                                   service::MemoryBudget& budget) const;
     [[nodiscard]] Expected<BlobEntry> put(std::span<const Bytes> parts);
+    void forget_expiry(std::map<std::uint64_t, service::SessionRecord>& sessions) const;
     void judge(const SessionRow& row, const Error* damage);
     void put_unknown_aside(const std::vector<std::string>& blobs);
     void can_be_loaded(const service::SourceMesh& source, const std::string& blob) const;
@@ -62,7 +61,7 @@ private:
     const DiskReserve reserve_;
     const std::uint64_t quota_;
     const std::shared_ptr<const Report> report_;
-    std::atomic<std::uint32_t> aside_ = 0;
+    std::atomic<std::uint32_t> aside_;  // with indices, whose sessions nobody can count
     // Shared from before a blob is put until the index names it; alone while unused ones are removed.
     std::shared_mutex collecting_;
 };

@@ -121,6 +121,17 @@ TEST_F(FileBlobStoreTest, ADirectoryInABlobsPlaceIsDamageLikeAnyOther) {
     EXPECT_EQ(open()->bytes(), 6U);
 }
 
+TEST_F(FileBlobStoreTest, APlaceThatCannotBeLookedAtIsRefusedWithoutItsPath) {
+    const auto store = open();
+    const Bytes bytes = bytes_of("some bytes");
+    const auto place = scratch_.path() / "blobs" / store->key_of({&bytes, 1}).substr(0, 2);
+    std::filesystem::create_symlink(place, place);
+    const auto put = store->put({&bytes, 1});
+    ASSERT_FALSE(put);
+    EXPECT_EQ(put.error().cause, Cause::kUnavailable);
+    EXPECT_EQ(put.error().message, "cannot keep a mesh in the data directory: Too many levels of symbolic links");
+}
+
 TEST_F(FileBlobStoreTest, WhatIsPutAsideIsThereAndNotServed) {
     const auto store = open();
     const auto key = put(*store, "perhaps all that is left").operator*().key;

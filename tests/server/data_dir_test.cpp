@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "store/sqlite.h"
 #include "store/sqlite_session_index.h"
@@ -56,6 +59,52 @@ TEST_F(DataDirTest, AFileInItsPlaceIsRefused) {
     EXPECT_THAT(opened.error().message, HasSubstr(directory_.string()));
 }
 
+TEST_F(DataDirTest, APlaceThatCannotBeIsAnErrorNotAnEnd) {
+    const auto refusal = [this](const std::filesystem::path& path) {
+        const auto opened = DataDir::open(path, 0, [this](const std::string& message) { told_ += message; });
+        return opened ? std::string("opened") : opened.error().message;
+    };
+    EXPECT_THAT(refusal(scratch_.path() / std::string(300, 'x')), HasSubstr("File name too long"));
+    const auto loop = scratch_.path() / "loop";
+    std::filesystem::create_symlink(loop, loop);
+    EXPECT_THAT(refusal(loop), HasSubstr("Too many levels of symbolic links"));
+    EXPECT_THAT(refusal(loop / "under"), HasSubstr("Too many levels of symbolic links"));
+    EXPECT_EQ(told_, "");
+}
+
+TEST_F(DataDirTest, WhatIsOfAnotherKindIsNamed) {
+    for (const char* name : {"sessions.db", "reserve", "blobs", "blobs/incoming", "uploads"}) {
+        std::filesystem::remove_all(directory_);
+        ASSERT_TRUE(open());
+        const auto path = directory_ / name;
+        const bool file = std::filesystem::is_regular_file(path);
+        std::filesystem::remove_all(path);
+        if (file) {
+            std::filesystem::create_directory(path);
+        } else {
+            std::ofstream(path) << "a file";
+        }
+        const auto opened = open();
+        ASSERT_FALSE(opened) << name;
+        EXPECT_EQ(opened.error().message,
+                  path.string() + " is not a " + (file ? "file" : "directory") + ", as vsplitd needs it; move it away");
+    }
+}
+
+TEST_F(DataDirTest, AnIndexThatSomebodyLooksAtIsWaitedFor) {
+    ASSERT_TRUE(open());
+    auto other = *Database::open(directory_ / "sessions.db");
+    ASSERT_TRUE(other.run("BEGIN IMMEDIATE"));
+    std::thread looks([&other] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        EXPECT_TRUE(other.run("COMMIT"));
+    });
+    const auto index = SqliteSessionIndex::open(directory_ / "sessions.db");
+    ASSERT_TRUE(index);
+    EXPECT_TRUE((*index)->add_loose("blob"));
+    looks.join();
+}
+
 TEST_F(DataDirTest, ADamagedIndexIsPutAsideAsItIs) {
     ASSERT_TRUE(open());
     std::filesystem::create_directories(directory_ / "blobs" / "ab");
@@ -70,8 +119,63 @@ TEST_F(DataDirTest, ADamagedIndexIsPutAsideAsItIs) {
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), damage);
     EXPECT_TRUE(std::filesystem::exists(directory_ / "damaged-1" / "blobs" / "ab" / "something"));
     std::ofstream(directory_ / "sessions.db") << damage;
-    ASSERT_TRUE(open());
+    auto again = open();
+    ASSERT_TRUE(again);
     EXPECT_TRUE(std::filesystem::exists(directory_ / "damaged-2" / "sessions.db"));
+    EXPECT_EQ(again->take_archive()->use().set_aside, 2U) << "an alert fires for them";
+}
+
+/// An index whose server was killed: sessions in its log, none in itself.
+void make_killed_index(const std::filesystem::path& directory, std::uint64_t sessions) {
+    const auto live = directory / "live";
+    std::filesystem::create_directories(live);
+    const auto index = *SqliteSessionIndex::open(live / "sessions.db");
+    for (std::uint64_t number = 1; number <= sessions; ++number) {
+        ASSERT_TRUE(index->add_session({number, std::to_string(number), "", 0, 0, 0, {}}));
+    }
+    for (const char* name : {"sessions.db", "sessions.db-wal"}) std::filesystem::copy_file(live / name, directory / name);
+}
+
+TEST_F(DataDirTest, ALogWithoutItsIndexIsPutAside) {
+    for (const bool empty : {false, true}) {
+        told_.clear();
+        std::filesystem::remove_all(directory_);
+        make_killed_index(directory_, 3);
+        const auto log = std::filesystem::file_size(directory_ / "sessions.db-wal");
+        if (empty) {
+            std::filesystem::resize_file(directory_ / "sessions.db", 0);
+        } else {
+            std::filesystem::remove(directory_ / "sessions.db");
+        }
+        ASSERT_TRUE(open());
+        EXPECT_THAT(told_, HasSubstr("its log is not; put aside untouched in "));
+        EXPECT_EQ(std::filesystem::file_size(directory_ / "damaged-1" / "sessions.db-wal"), log);
+    }
+}
+
+TEST_F(DataDirTest, ALogThatIsDamagedInTheMiddleIsKept) {
+    make_killed_index(directory_, 4);
+    const auto path = directory_ / "sessions.db-wal";
+    std::filesystem::create_directories(directory_ / "blobs" / "ab");
+    std::ofstream(directory_ / "blobs" / "ab" / "something") << "of a session";
+    const auto log = std::filesystem::file_size(path);
+    std::fstream(path, std::ios::in | std::ios::out).seekp(static_cast<std::streamoff>(log / 2)).write("?!", 2);
+    ASSERT_TRUE(open());
+    EXPECT_THAT(told_, HasSubstr("the log of the data directory's index is damaged"));
+    EXPECT_EQ(std::filesystem::file_size(directory_ / "damaged-1" / "sessions.db-wal"), log);
+    EXPECT_TRUE(std::filesystem::exists(directory_ / "damaged-1" / "sessions.db"));
+    EXPECT_TRUE(std::filesystem::exists(directory_ / "damaged-1" / "blobs" / "ab" / "something"));
+    told_.clear();
+    ASSERT_TRUE(open());
+    EXPECT_EQ(told_, "") << "once";
+}
+
+TEST_F(DataDirTest, ALogThatACrashCutShortIsNotReported) {
+    make_killed_index(directory_, 4);
+    const auto path = directory_ / "sessions.db-wal";
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) - 100);
+    ASSERT_TRUE(open());
+    EXPECT_EQ(told_, "");
 }
 
 TEST_F(DataDirTest, ADirectoryThatIsThereKeepsItsPermissions) {
@@ -97,12 +201,12 @@ TEST_F(DataDirTest, ALaterVersionIsLeftAlone) {
     ASSERT_TRUE(open());
     {
         auto database = Database::open(directory_ / "sessions.db");
-        ASSERT_TRUE(database && database->run("PRAGMA user_version = 2"));
+        ASSERT_TRUE(database && database->run("PRAGMA user_version = 3"));
     }
     const auto opened = open();
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().cause, Cause::kUnsupported);
-    EXPECT_THAT(opened.error().message, HasSubstr("has version 2"));
+    EXPECT_THAT(opened.error().message, HasSubstr("has version 3"));
     EXPECT_EQ(told_, "");
     EXPECT_FALSE(std::filesystem::exists(directory_ / "damaged-1"));
 }
@@ -124,6 +228,71 @@ TEST_F(DataDirTest, AnIndexThatLostARowOfItsPagesIsDamaged) {
     }
     ASSERT_TRUE(open());
     EXPECT_THAT(told_, HasSubstr("put aside untouched"));
+}
+
+/// An index of 100 sessions with a representation each, seven sessions a page.
+class DamagedIndexTest : public DataDirTest {
+protected:
+    static constexpr std::uint64_t kSessions = 100;
+
+    void SetUp() override {
+        ASSERT_TRUE(open());
+        {
+            const auto index = *SqliteSessionIndex::open(file());
+            for (std::uint64_t number = 1; number <= kSessions; ++number) {
+                const SessionRow session{
+                    number, std::to_string(number), "ann", 0, 5, 0, {std::to_string(number), std::string(500, 'x')}};
+                ASSERT_TRUE(index->add_session(session));
+                ASSERT_TRUE(index->add_representation({number, 1, {"m" + std::to_string(number), "info"}}, 1));
+            }
+        }
+        std::ifstream stream(file(), std::ios::binary);
+        written_ = {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+    std::filesystem::path file() const { return directory_ / "sessions.db"; }
+
+    void put(const std::string& bytes) {
+        std::filesystem::remove_all(directory_ / "damaged-1");
+        for (const char* suffix : {"-wal", "-shm"}) std::filesystem::remove(file().string() + suffix);
+        std::ofstream(file(), std::ios::binary) << bytes;
+        told_.clear();
+    }
+
+    /// Sessions that are served from these bytes.
+    std::size_t served_of(const std::string& bytes) {
+        put(bytes);
+        {
+            const auto opened = open();
+            EXPECT_TRUE(opened) << opened.error().message;
+        }
+        const auto contents = (*SqliteSessionIndex::open(file()))->load();
+        EXPECT_TRUE(contents) << contents.error().message;
+        const auto is_sound = [](const SessionRow& row) { return row.sound; };
+        return static_cast<std::size_t>(std::count_if(contents->sessions.begin(), contents->sessions.end(), is_sound));
+    }
+
+    std::string written_;
+};
+
+TEST_F(DamagedIndexTest, ABitThatChangesLosesAPageOfSessionsAtMost) {
+    constexpr std::size_t kStep = 1999;
+    constexpr std::size_t kPage = 4096;  // the first one has the schema, and nothing can be read without
+    for (std::size_t at = kPage + 100; at < written_.size(); at += kStep) {
+        std::string damaged = written_;
+        damaged[at] = static_cast<char>(damaged[at] ^ 1 << at % 8);
+        EXPECT_GE(served_of(damaged) + 8, kSessions) << at << ": " << told_;
+    }
+}
+
+TEST_F(DamagedIndexTest, ASchemaThatChangedIsDamageAndSessionsComeOver) {
+    std::string damaged = written_;
+    const std::size_t column = damaged.find("made INTEGER");
+    ASSERT_NE(column, std::string::npos);
+    damaged[column] = 'n';
+    EXPECT_EQ(served_of(damaged), kSessions);
+    EXPECT_THAT(told_, HasSubstr("its schema is not as it was written; put aside untouched in "));
+    EXPECT_THAT(told_, HasSubstr("100 sessions with 100 representations"));
 }
 
 }  // namespace

@@ -11,10 +11,12 @@
 #include <csignal>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "test_client.h"
 #include "tests/core/meshes.h"
+#include "tests/temp_directory.h"
 
 namespace vsplit::test {
 namespace {
@@ -215,6 +217,51 @@ TEST_F(ServerProcessTest, AMethodThatRunsDelaysTheEndByTheGraceAtMost) {
     process_->send(SIGTERM);
     EXPECT_EQ(process_->wait(seconds(60)), 0);
     EXPECT_FALSE(running.finish().ok());
+}
+
+TEST_F(ServerProcessTest, AMethodThatTheEndCutsOffIsKnownAfterTheNextStart) {
+    const TempDirectory scratch;
+    const std::vector<std::string> arguments{"--workers", "1", "--drain", "1", "--data-dir", scratch.path().string()};
+    start(arguments);
+    const std::string id = session_with(*stub_, icosphere(3));
+    v1::ImproveRequest request = long_improve(id);
+    request.mutable_options()->set_subdivision_size(0.006);
+    {
+        RunningImprove running(*stub_, request);
+        ASSERT_TRUE(running.wait_until_working());
+        process_->send(SIGTERM);
+        EXPECT_EQ(process_->wait(seconds(60)), 0);
+        const grpc::Status status = running.finish();
+        EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAVAILABLE);
+        EXPECT_THAT(status.error_message(), HasSubstr("shutting down"));
+    }
+    start(arguments);
+    const auto context = call();
+    v1::GetSessionRequest get;
+    get.set_session(id);
+    v1::Session session;
+    ASSERT_TRUE(stub_->GetSession(context.get(), get, &session).ok());
+    EXPECT_EQ(session.interrupted_size(), 1);
+}
+
+TEST_F(ServerProcessTest, KeepAliveOutlivesAKill) {
+    const TempDirectory scratch;
+    const std::vector<std::string> arguments{"--session-ttl", "8", "--data-dir", scratch.path().string()};
+    start(arguments);
+    const std::string id = create_session(*stub_).message.id();
+    std::this_thread::sleep_for(std::chrono::milliseconds(3500));  // a sweep, each 2 s, has told the disk what time it is
+    v1::KeepAliveRequest request;
+    request.set_session(id);
+    v1::Session told;
+    ASSERT_TRUE(stub_->KeepAlive(call().get(), request, &told).ok());
+    process_.reset();  // by SIGKILL
+    start(arguments);
+    v1::ListSessionsResponse all;
+    ASSERT_TRUE(stub_->ListSessions(call().get(), {}, &all).ok());
+    ASSERT_EQ(all.sessions_size(), 1);
+    const auto left =
+        all.sessions(0).expire_time().seconds() - std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    EXPECT_GE(left, 7) << "of 8 s, when KeepAlive was just answered";
 }
 
 // A sanitizer keeps books about memory that take more than the memory itself.

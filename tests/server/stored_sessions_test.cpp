@@ -346,6 +346,69 @@ TEST_F(StoredSessionsTest, ARowThatChangedSetsItsSessionAsideUntilItIsMended) {
     EXPECT_EQ(run.archive->use().set_aside, 0U);
 }
 
+TEST_F(StoredSessionsTest, AClockThatChangedLetsNothingExpire) {
+    const auto change = [this](const char* sql) { ASSERT_TRUE((*Database::open(scratch_.path() / "sessions.db")).run(sql)); };
+    std::string id;
+    {
+        ServerRun run(scratch_.path(), memory_);
+        id = (*run.store.create(run.source_of(test::cube())))->id();
+    }
+    for (const char* damage :
+         {"UPDATE clock SET now = now + 1099511627776", "UPDATE clock SET now = -now - 5", "DELETE FROM clock"}) {
+        change(damage);
+        {
+            ServerRun run(scratch_.path(), memory_);
+            EXPECT_THAT(run.told, HasSubstr("clock is not as it was written")) << damage;
+            EXPECT_EQ(run.store.remove_expired(), 0U);
+            EXPECT_TRUE(run.store.find(id)) << damage;
+            ASSERT_TRUE(run.store.note_time());
+        }
+        ServerRun run(scratch_.path(), memory_);
+        EXPECT_EQ(run.told, "") << "it goes on from there";
+        EXPECT_TRUE(run.store.find(id)) << damage;
+    }
+}
+
+TEST_F(StoredSessionsTest, ALifeThatChangedSetsItsSessionAside) {
+    const auto change = [this](const char* sql) { ASSERT_TRUE((*Database::open(scratch_.path() / "sessions.db")).run(sql)); };
+    std::string id;
+    {
+        ServerRun run(scratch_.path(), memory_);
+        const auto session = *run.store.create(run.source_of(test::icosphere(2)));
+        id = session->id();
+        ASSERT_TRUE(session->add_representation({}, improved(test::icosphere(2), {.faces = 100})));
+        session->touch();
+        ASSERT_TRUE(run.store.note_time());
+    }
+    for (const char* damage :
+         {"UPDATE sessions SET expires = expires - 4096", "UPDATE sessions SET expires = expires + 4096, made = 0"}) {
+        change(damage);
+        ServerRun run(scratch_.path(), memory_);
+        EXPECT_EQ(run.archive->use().set_aside, 1U) << damage;
+        EXPECT_EQ(run.store.remove_expired(), 0U);
+        EXPECT_EQ(blobs().size(), 2U);
+    }
+}
+
+// Version 1 had no digests of what changes at every use.
+TEST_F(StoredSessionsTest, AnIndexOfVersion1IsTakenOver) {
+    std::string id;
+    {
+        ServerRun run(scratch_.path(), memory_);
+        id = (*run.store.create(run.source_of(test::cube())))->id();
+    }
+    {
+        auto index = *Database::open(scratch_.path() / "sessions.db");
+        ASSERT_TRUE(
+            index.run("ALTER TABLE sessions DROP COLUMN life; ALTER TABLE clock DROP COLUMN digest; PRAGMA user_version = 1"));
+    }
+    for (int restart = 0; restart < 2; ++restart) {
+        ServerRun run(scratch_.path(), memory_);
+        EXPECT_EQ(run.told, "");
+        EXPECT_TRUE(run.store.find(id));
+    }
+}
+
 // By whatever program: what is a session's goes with its row, and its number is not used again.
 TEST_F(StoredSessionsTest, ARowThatIsDeletedTakesAllWithIt) {
     {
