@@ -148,6 +148,7 @@ Expected<std::unique_ptr<rest::RestServer>> start_rest(const ServerOptions& opti
         log_http(record);
     };
     rest::RestOptions rest = options.rest;
+    rest.limits.message_bytes = options.max_message_bytes;
     rest.own_hosts_only = tls == nullptr && options.token_file.empty() && is_loopback(*address);
     return rest::RestServer::start(address->host, address->port, std::move(backend), std::move(rest), observe, std::move(tls));
 }

@@ -84,6 +84,14 @@ Status take_body(const Route& route, const std::string& text, pb::Message& reque
 
 bool is_json(std::string_view type) { return same_token(media_type(type), kJsonType); }
 
+Problem too_large_a_message(std::size_t bytes, std::uint64_t limit) {
+    return problem_of(Error{Cause::kLimitExceeded,
+                            "this body makes a message of " + std::to_string(bytes) +
+                                " bytes; the server's limit max_message_bytes is " + std::to_string(limit) +
+                                ". A mesh of any size is taken as it is: curl -T FILE",
+                            ""});
+}
+
 }  // namespace
 
 Status bind_target(const Route& route, const Target& target, pb::Message& request) {
@@ -125,6 +133,8 @@ Awaitable<std::variant<std::unique_ptr<pb::Message>, Problem>> read_request(Exch
     }
     const Status bound = bind_target(route, target, *request);
     if (!bound) co_return problem_of(bound.error());
+    const std::size_t made = request->ByteSizeLong();
+    if (made > exchange.limits().message_bytes) co_return too_large_a_message(made, exchange.limits().message_bytes);
     co_return std::move(request);
 }
 

@@ -121,7 +121,7 @@ private:
     [[nodiscard]] static Json file(const char* description, std::initializer_list<const char*> more = {}) {
         Json headers = headers_of({"ContentDisposition", "ETag", "AcceptRanges"});
         headers.update(headers_of(more));
-        return {{"description", description}, {"headers", headers}, {"content", {{std::string(kBytesType), Json::object()}}}};
+        return {{"description", description}, {"headers", headers}, {"content", {{"*/*", Json::object()}}}};
     }
 
     [[nodiscard]] Json success() const {

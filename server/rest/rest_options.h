@@ -15,6 +15,7 @@ struct RestLimits {
     std::uint32_t header_bytes = 16 * 1024;                   ///< first line and header of a request
     std::size_t ahead_bytes = std::size_t{64} * 1024;         ///< of requests that a client sends before it has its answer
     std::uint64_t json_bytes = std::uint64_t{32} << 20;       ///< of one JSON body
+    std::uint64_t message_bytes = std::uint64_t{16} << 20;    ///< of a message that is made of a JSON body
     std::uint64_t json_memory = std::uint64_t{128} << 20;     ///< that one JSON body and what is made of it take
     std::uint64_t all_json_bytes = std::uint64_t{256} << 20;  ///< that all of them take at a time
     std::chrono::milliseconds header_time{10'000};            ///< for a whole header, from its first byte

@@ -25,6 +25,11 @@ std::optional<Problem> refuse_body(const Exchange& exchange) {
     if (same_token(type, kJsonType) || same_token(type, kMultipart)) {
         return wrong_body_type(exchange, "the file as it is (curl -T FILE), as application/octet-stream or any other type");
     }
+    // A client that takes up an upload that broke off would have the rest of its file taken for the whole.
+    if (!exchange.header(http::field::content_range).empty()) {
+        return http_problem(400, Cause::kMalformedInput,
+                            "a part of a file is no mesh; accepted is the whole, without Content-Range", "Content-Range");
+    }
     return refuse_coding(exchange);
 }
 

@@ -13,7 +13,7 @@ export function startProblems(): void {
 
 /** Shows what went wrong until it is closed or something else goes wrong. */
 export function showProblem({ cause, detail, field, retryAfter }: ProblemText): void {
-  if (cause === "UNAUTHENTICATED") askForToken();
+  if (cause === "UNAUTHENTICATED" || cause === "FORBIDDEN") askForToken();
   const close = element("button", { type: "button", class: "quiet", "aria-label": "Close" }, "×");
   const words = element("p", {}, element("strong", {}, cause), ` ${detail}`);
   if (field) words.append(element("span", { class: "hint" }, ` (${field})`));
