@@ -15,7 +15,7 @@ using net::ip::tcp;
 class RestServer::Listener {
 public:
     Listener(std::shared_ptr<net::io_context> context, std::unique_ptr<Gateway> gateway, HttpObserver observer,
-             std::shared_ptr<TlsContexts> tls)
+             std::shared_ptr<guard::TlsBook> tls)
         : context_(std::move(context)),
           gateway_(std::move(gateway)),
           observer_(std::move(observer)),
@@ -91,7 +91,7 @@ private:
     void welcome(tcp::socket socket) {
         const auto executor = socket.get_executor();
         const auto connection =
-            std::make_shared<Connection>(std::move(socket), tls_ ? tls_->current() : nullptr, *gateway_, observer_);
+            std::make_shared<Connection>(std::move(socket), tls_ ? tls_->current()->context : nullptr, *gateway_, observer_);
         bool room = false;
         {
             const std::lock_guard lock(mutex_);
@@ -112,7 +112,7 @@ private:
     const std::shared_ptr<net::io_context> context_;
     const std::unique_ptr<Gateway> gateway_;
     const HttpObserver observer_;
-    const std::shared_ptr<TlsContexts> tls_;
+    const std::shared_ptr<guard::TlsBook> tls_;
     net::executor_work_guard<net::io_context::executor_type> work_;
     tcp::acceptor acceptor_;
     net::steady_timer pause_;
@@ -128,7 +128,7 @@ private:
 
 Expected<std::unique_ptr<RestServer>> RestServer::start(const std::string& host, const std::string& port, Backend backend,
                                                         RestOptions options, HttpObserver observer,
-                                                        std::shared_ptr<TlsContexts> tls) {
+                                                        std::shared_ptr<guard::TlsBook> tls) {
     auto context = std::make_shared<net::io_context>();
     const unsigned threads = options.threads;
     Expected<std::unique_ptr<Gateway>> gateway = Gateway::make(std::move(backend), std::move(options));
