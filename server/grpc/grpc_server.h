@@ -44,9 +44,10 @@ struct GrpcExtras {
     guard::Gatekeeper* gate = nullptr;       ///< who may make rpcs of the contract; null: everybody; must outlive the server
     GrpcLimits limits{};
     ConnectionLife life{};
-    std::shared_ptr<guard::TlsBook> tls{};          ///< null: plain
-    std::function<void()> on_connection_refused{};  ///< of a connection over the limit
-    ShelfLimits shelf{};                            ///< of files that are downloaded
+    std::shared_ptr<guard::TlsBook> tls{};              ///< null: plain
+    std::function<void()> on_connection_refused{};      ///< of a connection over the limit
+    std::chrono::milliseconds upload_patience{30'000};  ///< with an upload that sends nothing
+    ShelfLimits shelf{};                                ///< of files that are downloaded
 };
 
 /// The gRPC front door: vsplit.v1.Meshing, health (of the server and of that service) and reflection.

@@ -160,6 +160,7 @@ Expected<std::unique_ptr<rest::RestServer>> start_rest(const ServerOptions& opti
         log_http(record);
     };
     rest::RestOptions rest = options.rest;
+    rest.on_connection_refused = [&metrics] { metrics.connection_refused(); };
     rest.own_hosts_only = tls == nullptr && options.token_file.empty() && is_loopback(*address);
     return rest::RestServer::start(address->host, address->port, std::move(backend), std::move(rest), observe, std::move(tls));
 }
@@ -204,6 +205,7 @@ int serve(const ServerOptions& options, const ListenAddress& address, const std:
     Expected<std::optional<store::DataDir>> data = open_data_dir(options);
     if (!data) return fail(options, data.error().message);
     if (*data) service_options.temp_directory = (*data)->uploads();
+    if (*data) service_options.limits.disk_bytes = options.max_disk_bytes;
     service::MeshingService service(service_options,
                                     *data ? (*data)->take_archive() : std::make_unique<service::SessionArchive>());
     if (const Status restored = service.restore(); !restored) return fail(options, restored.error().message);

@@ -24,7 +24,7 @@ bool always() { return true; }
 class UploadTest : public ::testing::Test {
 protected:
     Expected<Upload> begin(std::optional<std::uint64_t> size = std::nullopt) {
-        return Upload::begin(session_, {{}, size}, options_, memory_);
+        return Upload::begin(session_, {{}, size}, options_, memory_, disk_);
     }
 
     // The session is as it was before any upload.
@@ -33,6 +33,7 @@ protected:
     ServiceOptions options_;
     MemoryBudget memory_{0};
     SessionArchive archive_;
+    UploadRoom disk_{archive_, 1000};
     WorkerPool workers_{1};
     std::shared_ptr<Session> session_ =
         std::make_shared<Session>(SessionRecord{.number = 1, .id = "id", .expires = std::chrono::hours(1)}, Session::Clock::now(),
@@ -49,6 +50,23 @@ TEST_F(UploadTest, PutsTheMeshIntoTheSession) {
     ASSERT_TRUE(session) << session.error().message;
     EXPECT_EQ(**session->source->mesh->get(), test::cube());
     EXPECT_TRUE(session->source->report.closed);
+}
+
+TEST_F(UploadTest, UploadsOnTheirWayTakeDiskTogether) {
+    const std::string part(400, ' ');
+    {
+        Expected<Upload> first = begin(), second = begin();
+        ASSERT_TRUE(first && second);
+        ASSERT_TRUE(first->append(0, bytes_of(part)));
+        ASSERT_TRUE(second->append(0, bytes_of(part)));
+        const Status refused = first->append(400, bytes_of(part));
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().cause, Cause::kLimitExceeded);
+        EXPECT_THAT(refused.error().message, HasSubstr("max_disk_bytes, 1000"));
+    }
+    Expected<Upload> next = begin();
+    ASSERT_TRUE(next);
+    EXPECT_TRUE(next->append(0, bytes_of(std::string(1000, ' ')))) << "what has ended takes none";
 }
 
 TEST_F(UploadTest, RefusesADeclaredSizeOverTheLimitBeforeAnyByte) {
@@ -103,7 +121,7 @@ TEST_F(UploadTest, ChangesNothingWhenItIsNotWantedAnyMore) {
 
 TEST_F(UploadTest, RefusesAWeldThatIsNoLengthBeforeAnyByte) {
     for (const double weld : {-1.0, std::nan(""), HUGE_VAL}) {
-        const Expected<Upload> upload = Upload::begin(session_, {{std::nullopt, weld}, std::nullopt}, options_, memory_);
+        const Expected<Upload> upload = Upload::begin(session_, {{std::nullopt, weld}, std::nullopt}, options_, memory_, disk_);
         ASSERT_FALSE(upload) << weld;
         EXPECT_EQ(upload.error().cause, Cause::kInvalidOption);
         EXPECT_EQ(upload.error().field, "weld");
