@@ -66,7 +66,9 @@ TEST(UploadStallTest, AnUploadThatSendsNothingEnds) {
         v1::Session response;
         const auto context = call();
         const auto writer = server.stub().UploadMesh(context.get(), &response);
-        if (starts) EXPECT_TRUE(writer->Write(part));
+        if (starts) {
+            EXPECT_TRUE(writer->Write(part));
+        }
         EXPECT_TRUE(failed_with(writer->Finish(), Cause::kUnavailable, "")) << starts;
     }
     EXPECT_TRUE(upload(server.stub(), session, file_of(torus(40, 20))).status.ok()) << "nothing is left of it";
