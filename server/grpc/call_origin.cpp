@@ -8,12 +8,6 @@
 namespace vsplit::rpc {
 namespace {
 
-std::string_view metadata(const grpc::ServerContextBase& context, const char* name) {
-    const auto found = context.client_metadata().find(name);
-    if (found == context.client_metadata().end()) return {};
-    return {found->second.data(), found->second.size()};
-}
-
 bool came_by_socket(std::string_view peer) {
     return peer.starts_with("ipv4:") || peer.starts_with("ipv6:") || peer.starts_with("unix:");
 }
@@ -33,20 +27,29 @@ std::string address_of(const std::string& peer) {
     return peer.substr(first + 1, last - first - 1);
 }
 
-CallOrigin origin_of(const grpc::ServerContextBase& context) {
+CallOrigin origin_of(const HeaderLookup& header, const std::string& peer) {
     CallOrigin origin;
-    const std::string peer = context.peer();
-    origin.authorization = metadata(context, "authorization");
-    origin.peer = came_by_socket(peer) ? address_of(peer) : std::string(metadata(context, wire::kForwardedPeerKey));
-    const std::string_view named = metadata(context, wire::kRequestIdKey);
+    origin.authorization = header("authorization");
+    origin.peer = peer;
+    const std::string_view named = header(wire::kRequestIdKey);
     const std::string fresh = new_id();
     origin.request_id = wire::is_request_id(named) ? std::string(named) : fresh;
-    const std::optional<wire::TraceContext> given = wire::parse_traceparent(metadata(context, wire::kTraceparentKey));
+    const std::optional<wire::TraceContext> given = wire::parse_traceparent(header(wire::kTraceparentKey));
     constexpr std::size_t kSpanDigits = 16;
     origin.trace = given ? *given : wire::TraceContext{new_id(), "", "00"};
     origin.parent_span = origin.trace.span_id;
     origin.trace.span_id = fresh.substr(0, kSpanDigits);
     return origin;
+}
+
+CallOrigin origin_of(const grpc::ServerContextBase& context) {
+    const HeaderLookup header = [&context](std::string_view name) -> std::string_view {
+        const auto found = context.client_metadata().find(grpc::string_ref(name.data(), name.size()));
+        if (found == context.client_metadata().end()) return {};
+        return {found->second.data(), found->second.size()};
+    };
+    const std::string peer = context.peer();
+    return origin_of(header, came_by_socket(peer) ? address_of(peer) : std::string(header(wire::kForwardedPeerKey)));
 }
 
 }  // namespace vsplit::rpc

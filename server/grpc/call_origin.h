@@ -2,7 +2,9 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "wire/trace_context.h"
 
@@ -16,6 +18,12 @@ struct CallOrigin {
     wire::TraceContext trace;  ///< the client's trace, or a new one, with a span of its own
     std::string parent_span;   ///< empty where the trace begins here
 };
+
+/// What a call's header says of a name in lower case; empty for what it does not.
+using HeaderLookup = std::function<std::string_view(std::string_view name)>;
+
+/// \param peer as gRPC has it; empty where it is not known
+[[nodiscard]] CallOrigin origin_of(const HeaderLookup& header, const std::string& peer);
 
 [[nodiscard]] CallOrigin origin_of(const grpc::ServerContextBase& context);
 

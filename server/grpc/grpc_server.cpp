@@ -2,10 +2,11 @@
 
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/resource_quota.h>
 
 #include <utility>
 
-#include "grpc/tls_credentials.h"
+#include "grpc/door_credentials.h"
 
 namespace vsplit::rpc {
 namespace {
@@ -20,6 +21,7 @@ constexpr int kMostPingsMs = 10 * kMs;  // a client may ask so often for a sign 
 void set_life(grpc::ServerBuilder& builder, const ConnectionLife& life) {
     builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kMostPingsMs);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+    builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, static_cast<int>(life.handshake.count()) * kMs);
     if (life.keepalive.count() > 0) {
         builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, static_cast<int>(life.keepalive.count()) * kMs);
         builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
@@ -33,7 +35,9 @@ void set_life(grpc::ServerBuilder& builder, const ConnectionLife& life) {
 
 GrpcServer::GrpcServer(service::MeshingService& service, const GrpcExtras& extras)
     : ledger_(extras.observer, extras.gate, extras.limits.rpcs),
-      rpcs_(service, ledger_, extras.shelf),
+      rpcs_(service, ledger_, extras.shelf, extras.upload_patience),
+      strangers_(extras.observer, extras.gate, extras.meter),
+      credentials_(door_credentials(extras.tls, &strangers_)),
       door_(extras.limits.connections, extras.on_connection_refused) {}
 
 GrpcServer::~GrpcServer() { shutdown(std::chrono::milliseconds(0)); }
@@ -51,10 +55,11 @@ Status GrpcServer::serve(const GrpcExtras& extras) {
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
     grpc::ServerBuilder builder;
     builder.SetMaxReceiveMessageSize(extras.limits.message_bytes);
+    builder.SetResourceQuota(grpc::ResourceQuota("vsplitd").Resize(extras.limits.message_memory));
     builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, extras.limits.streams);
     set_life(builder, extras.life);
     using Connections = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
-    acceptor_ = builder.experimental().AddExternalConnectionAcceptor(Connections::FROM_FD, credentials_of(extras.tls));
+    acceptor_ = builder.experimental().AddExternalConnectionAcceptor(Connections::FROM_FD, credentials_);
     builder.RegisterService(&rpcs_);
     for (grpc::Service* service : extras.services) builder.RegisterService(service);
     if (extras.meter != nullptr) builder.experimental().SetInterceptorCreators(interceptors_of(*extras.meter));

@@ -12,8 +12,9 @@
 #include "grpc/meshing_rpcs.h"
 #include "grpc/rpc_ledger.h"
 #include "grpc/rpc_meter.h"
+#include "grpc/stranger_check.h"
 #include "guard/gatekeeper.h"
-#include "guard/tls_files.h"
+#include "guard/tls_book.h"
 #include "service/meshing_service.h"
 #include "vsplit/base/expected.h"
 
@@ -21,16 +22,18 @@ namespace vsplit::rpc {
 
 /// What clients may use up.
 struct GrpcLimits {
-    std::size_t connections = 0;   ///< at a time; 0: no limit
-    std::size_t rpcs = 0;          ///< at a time; 0: no limit
-    int message_bytes = 16 << 20;  ///< of one message; larger meshes come by UploadMesh, in parts
-    int streams = 1000;            ///< rpcs of one connection at a time; more wait at the client
+    std::size_t connections = 0;                          ///< at a time; 0: no limit
+    std::size_t rpcs = 0;                                 ///< at a time; 0: no limit
+    int message_bytes = 16 << 20;                         ///< of one message; larger meshes come by UploadMesh, in parts
+    int streams = 1000;                                   ///< rpcs of one connection at a time; more wait at the client
+    std::size_t message_memory = std::size_t{256} << 20;  ///< that messages on their way in take, of all connections together
 };
 
 /// How long connections live.
 struct ConnectionLife {
-    std::chrono::seconds keepalive{0};  ///< of silence, then a client is asked for a sign of life and cut off without; 0: never
-    std::chrono::seconds age{0};        ///< then a client is told to connect anew when its rpcs are done; 0: never
+    std::chrono::seconds keepalive{0};   ///< of silence, then a client is asked for a sign of life and cut off without; 0: never
+    std::chrono::seconds age{0};         ///< then a client is told to connect anew when its rpcs are done; 0: never
+    std::chrono::seconds handshake{20};  ///< that a client has for TLS and HTTP/2's first words, then it is cut off
 };
 
 /// What a server has beside the contract.
@@ -41,9 +44,10 @@ struct GrpcExtras {
     guard::Gatekeeper* gate = nullptr;       ///< who may make rpcs of the contract; null: everybody; must outlive the server
     GrpcLimits limits{};
     ConnectionLife life{};
-    guard::TlsFiles tls{};                          ///< none: plain
-    std::function<void()> on_connection_refused{};  ///< of a connection over the limit
-    ShelfLimits shelf{};                            ///< of files that are downloaded
+    std::shared_ptr<guard::TlsBook> tls{};              ///< null: plain
+    std::function<void()> on_connection_refused{};      ///< of a connection over the limit
+    std::chrono::milliseconds upload_patience{30'000};  ///< with an upload that sends nothing
+    ShelfLimits shelf{};                                ///< of files that are downloaded
 };
 
 /// The gRPC front door: vsplit.v1.Meshing, health (of the server and of that service) and reflection.
@@ -78,6 +82,8 @@ private:
 
     RpcLedger ledger_;
     MeshingRpcs rpcs_;
+    StrangerCheck strangers_;
+    const std::shared_ptr<grpc::ServerCredentials> credentials_;  // outlive the server
     std::unique_ptr<grpc::Server> server_;
     std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
     ConnectionDoor door_;

@@ -164,7 +164,7 @@ grpc::ServerUnaryReactor* MeshingRpcs::CreateSession(Context* context, const v1:
 }
 
 grpc::ServerReadReactor<v1::UploadMeshRequest>* MeshingRpcs::UploadMesh(Context* context, v1::Session* response) {
-    return new UploadStream(service_, RpcWatch(ledger_, *context, "UploadMesh", ""), response);
+    return new UploadStream(service_, RpcWatch(ledger_, *context, "UploadMesh", ""), response, upload_patience_);
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::GetSession(Context* context, const v1::GetSessionRequest* request, v1::Session* response) {

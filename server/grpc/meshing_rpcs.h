@@ -15,9 +15,10 @@ namespace vsplit::rpc {
 /// The rpcs of vsplit.v1.Meshing, as the proto describes them, on top of the service. Nothing heavy is done on gRPC's threads.
 class MeshingRpcs final : public v1::Meshing::CallbackService {
 public:
-    /// Both must outlive the rpcs.
-    MeshingRpcs(service::MeshingService& service, RpcLedger& ledger, const ShelfLimits& shelf)
-        : service_(service), ledger_(ledger), shelf_(std::make_shared<FileShelf>(shelf)) {}
+    /// Service and ledger must outlive the rpcs. \param upload_patience with an upload that sends nothing
+    MeshingRpcs(service::MeshingService& service, RpcLedger& ledger, const ShelfLimits& shelf,
+                std::chrono::milliseconds upload_patience)
+        : service_(service), ledger_(ledger), shelf_(std::make_shared<FileShelf>(shelf)), upload_patience_(upload_patience) {}
 
     using Context = grpc::CallbackServerContext;
     using UnaryReactor = grpc::ServerUnaryReactor;
@@ -59,6 +60,7 @@ private:
     service::MeshingService& service_;
     RpcLedger& ledger_;
     const std::shared_ptr<FileShelf> shelf_;
+    const std::chrono::milliseconds upload_patience_;
 };
 
 }  // namespace vsplit::rpc

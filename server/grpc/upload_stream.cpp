@@ -37,16 +37,35 @@ Error changed(const char* field) {
 
 }  // namespace
 
-UploadStream::UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response)
-    : service_(service), watch_(std::move(watch)), response_(response) {
+UploadStream::UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response,
+                           std::chrono::milliseconds patience)
+    : service_(service), watch_(std::move(watch)), response_(response), patience_(patience) {
     if (const Status open = watch_.admit(); open) {
-        StartRead(&part_);
+        read();
     } else {
         end(open);  // before the client has sent anything
     }
 }
 
+Error UploadStream::stalled() const {
+    return {Cause::kUnavailable,
+            "nothing came for " + std::to_string(patience_.count() / 1000) + " s; the session is as it was, send the mesh again",
+            ""};
+}
+
+// An alarm that has been cancelled may still call, when the stream is gone: what it looks at first is its own.
+void UploadStream::read() {
+    reading_ = std::make_shared<std::atomic<bool>>(true);
+    alarm_.emplace();
+    alarm_->Set(std::chrono::system_clock::now() + patience_, [this, reading = reading_](bool rang) {
+        if (rang && reading->exchange(false)) end(stalled());
+    });
+    StartRead(&part_);
+}
+
 void UploadStream::OnReadDone(bool ok) {
+    if (!reading_->exchange(false)) return;  // its end came first
+    alarm_.reset();
     // Whether the client has sent everything or is gone, a failed read does not tell, and the news of a cancel may come later. So
     // something is sent: that fails on a stream which is closed already.
     if (!ok) return StartSendInitialMetadata();
@@ -65,7 +84,7 @@ void UploadStream::finish_upload() {
 void UploadStream::read_on() {
     const Status taken = service::guarded([this] { return take_part(); });
     if (!taken) return end(taken);
-    StartRead(&part_);
+    read();
 }
 
 Status UploadStream::take_part() {

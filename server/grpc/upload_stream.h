@@ -1,8 +1,11 @@
 #pragma once
 
+#include <grpcpp/alarm.h>
 #include <grpcpp/grpcpp.h>
 
 #include <atomic>
+#include <chrono>
+#include <memory>
 #include <optional>
 
 #include "grpc/rpc_ledger.h"
@@ -12,10 +15,11 @@
 namespace vsplit::rpc {
 
 /// UploadMesh: one part at a time goes from the network to the disk; the next is read when it is there, so an upload of any size
-/// takes one part of memory. Reading the mesh is an errand. Deletes itself.
+/// takes one part of memory. Reading the mesh is an errand. A client that sends nothing for `patience` is not waited
+/// for. Deletes itself.
 class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest> {
 public:
-    UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response);
+    UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response, std::chrono::milliseconds patience);
 
     void OnReadDone(bool ok) override;
     void OnSendInitialMetadataDone(bool ok) override;
@@ -27,7 +31,9 @@ private:
     [[nodiscard]] Status begin();
     [[nodiscard]] Status check_repeated() const;
     [[nodiscard]] Status commit();
+    void read();
     void read_on();
+    [[nodiscard]] Error stalled() const;
     void finish_upload();
     void end(const Status& status);
 
@@ -38,6 +44,9 @@ private:
     v1::UploadMeshRequest first_;  // without its data
     std::optional<service::Upload> upload_;
     std::atomic<bool> cancelled_{false};
+    const std::chrono::milliseconds patience_;
+    std::optional<grpc::Alarm> alarm_;
+    std::shared_ptr<std::atomic<bool>> reading_;  // whoever clears it, the read or its alarm, goes on
 };
 
 }  // namespace vsplit::rpc

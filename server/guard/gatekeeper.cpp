@@ -43,6 +43,12 @@ Expected<std::string> Gatekeeper::admit(const Visitor& visitor, Access needed) {
     return std::move(holder->name);
 }
 
+Status Gatekeeper::recognise(std::string_view authorization) {
+    const std::string_view token = token_of(authorization);
+    if (tokens_ == nullptr || tokens_->find(token)) return Done{};
+    return unauthenticated(token);
+}
+
 Status Gatekeeper::take_turn(std::string_view kind, std::string_view client) {
     const unsigned wait = rates_.take(std::string(kind) + std::string(client), RateLimiter::Clock::now());
     if (wait == 0) return Done{};

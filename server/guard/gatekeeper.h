@@ -28,6 +28,10 @@ public:
     /// \return UNAUTHENTICATED without a token that is known, FORBIDDEN for one that does not allow so much, LIMIT_EXCEEDED.
     [[nodiscard]] Expected<std::string> admit(const Visitor& visitor, Access needed);
 
+    /// Whether `authorization` has a token of the book; true without a book. Counts nothing. O(tokens).
+    /// \return UNAUTHENTICATED.
+    [[nodiscard]] Status recognise(std::string_view authorization);
+
 private:
     [[nodiscard]] Status take_turn(std::string_view kind, std::string_view client);
 

@@ -3,14 +3,17 @@
 #include <google/protobuf/stubs/logging.h>
 #include <grpc/support/log.h>
 #include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "ops/line_writer.h"
 #include "service/quoted.h"
 #include "wire/error_table.h"
 
@@ -61,6 +64,47 @@ private:
                                     ""};
 };
 
+std::unique_ptr<spdlog::formatter> formatter_of(bool json) {
+    if (json) return std::make_unique<JsonFormatter>();
+    return std::make_unique<spdlog::pattern_formatter>(std::string(kTime) + " %l %v", spdlog::pattern_time_type::utc);
+}
+
+std::string line_of(spdlog::formatter& formatter, Level level, const std::string& text) {
+    spdlog::memory_buf_t line;
+    formatter.format(spdlog::details::log_msg("vsplitd", level, text), line);
+    return fmt::to_string(line);
+}
+
+class Sink final : public spdlog::sinks::base_sink<std::mutex> {
+public:
+    explicit Sink(bool json)
+        : writer_(STDERR_FILENO, [json](std::uint64_t lines) {
+              return line_of(*formatter_of(json), Level::warn,
+                             std::to_string(lines) + " lines of the log were dropped: stderr was not read");
+          }) {
+        formatter_ = formatter_of(json);
+    }
+
+    bool wait(std::chrono::milliseconds longest) { return writer_.flush(longest); }
+
+protected:
+    void sink_it_(const spdlog::details::log_msg& message) override {
+        spdlog::memory_buf_t line;
+        formatter_->format(message, line);
+        writer_.put(fmt::to_string(line));
+    }
+
+    void flush_() override {}
+
+private:
+    LineWriter writer_;
+};
+
+std::shared_ptr<Sink>& sink() {
+    static std::shared_ptr<Sink> held;
+    return held;
+}
+
 void write(Level level, const Json& json) {
     spdlog::default_logger_raw()->log(level, spdlog::string_view_t(JsonFormatter::dump(json)));
 }
@@ -96,17 +140,21 @@ Json rpc_json(const rpc::RpcRecord& record) {
 
 void start_logging(const LogOptions& wanted) {
     options() = wanted;
-    auto logger = std::make_shared<spdlog::logger>("vsplitd", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    sink() = std::make_shared<Sink>(wanted.json);
+    auto logger = std::make_shared<spdlog::logger>("vsplitd", sink());
     logger->set_level(wanted.level == "error" ? spdlog::level::err : spdlog::level::from_str(wanted.level));
-    if (wanted.json) {
-        logger->set_formatter(std::make_unique<JsonFormatter>());
-    } else {
-        logger->set_pattern(std::string(kTime) + " %l %v", spdlog::pattern_time_type::utc);
-    }
-    logger->flush_on(spdlog::level::debug);
     spdlog::set_default_logger(std::move(logger));
     gpr_set_log_function(log_grpc);
     google::protobuf::SetLogHandler(log_protobuf);
+}
+
+void flush_log() {
+    constexpr std::chrono::seconds kLongest{1};
+    if (sink() != nullptr) sink()->wait(kLongest);
+}
+
+void say_failure(const std::string& message, bool json) {
+    std::cerr << (json ? line_of(*formatter_of(true), Level::err, message) : "vsplitd: " + message + '\n') << std::flush;
 }
 
 void log_rpc(const rpc::RpcRecord& record) {

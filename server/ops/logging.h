@@ -16,8 +16,15 @@ struct LogOptions {
     double slow_job = 0;         ///< seconds; a method that takes longer is a warning; 0: none
 };
 
-/// Sends the program's log, and what gRPC itself has to say, to stderr: a line each, time in UTC.
+/// Sends the program's log, and what gRPC itself has to say, to stderr: a line each, time in UTC. Nobody waits for who reads it:
+/// where it is not read the oldest lines are dropped, and counted.
 void start_logging(const LogOptions& options);
+
+/// Gives the log a moment to be written; at the program's end.
+void flush_log();
+
+/// Says at once, on stderr, why the program ends: "vsplitd: MESSAGE", or an object as the log's.
+void say_failure(const std::string& message, bool json);
 
 /// One line for an rpc: method, code, milliseconds, session, request, and what went wrong.
 void log_rpc(const rpc::RpcRecord& record);

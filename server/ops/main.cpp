@@ -30,6 +30,7 @@
 #include "rest/openapi.h"
 #include "rest/rest_server.h"
 #include "service/meshing_service.h"
+#include "service/sweeper.h"
 #include "store/data_dir.h"
 #include "vsplit/v1/meshing.grpc.pb.h"
 
@@ -38,6 +39,8 @@ namespace {
 
 // For the last bytes of answers to reach clients that read them.
 constexpr std::chrono::seconds kFlushTime{1};
+
+constexpr std::chrono::seconds kTrimPause{5};
 
 sigset_t stop_signals() {
     sigset_t signals;
@@ -52,6 +55,14 @@ void return_large_memory() {
 #if defined(__GLIBC__)
     constexpr int kLarge = 1 << 20;
     static_cast<void>(mallopt(M_MMAP_THRESHOLD, kLarge));
+#endif
+}
+
+// Many small pieces, those of messages above all, stay with the heaps of threads when they are freed.
+void return_free_memory() {
+#if defined(__GLIBC__)
+    constexpr std::size_t kMuch = std::size_t{64} << 20;
+    if (mallinfo2().fordblks > kMuch) malloc_trim(0);
 #endif
 }
 
@@ -77,21 +88,21 @@ int wait_for_stop_signal() {
     return number;
 }
 
-int fail(const std::string& message) {
-    std::cerr << "vsplitd: " << message << '\n';
+int fail(const ServerOptions& options, const std::string& message) {
+    say_failure(message, options.log_format == "json");
     return 1;
 }
 
 // What holds for every call, and must outlive the doors.
 struct Guard {
-    std::shared_ptr<rest::TlsContexts> tls;  // null: plain
+    std::shared_ptr<guard::TlsBook> tls;  // null: plain
     std::unique_ptr<guard::Gatekeeper> gate;
 };
 
 Expected<Guard> make_guard(const ServerOptions& options) {
     Guard made;
     if (!options.tls.cert.empty()) {
-        Expected<std::shared_ptr<rest::TlsContexts>> tls = rest::TlsContexts::open(options.tls, log_reload);
+        Expected<std::shared_ptr<guard::TlsBook>> tls = guard::TlsBook::open(options.tls, log_reload);
         if (!tls) return tls.error();
         made.tls = *std::move(tls);
     }
@@ -111,10 +122,11 @@ rpc::GrpcExtras extras_of(const ServerOptions& options, const Guard& guard, Metr
     extras.meter = &metrics;
     extras.on_connection_refused = [&metrics] { metrics.connection_refused(); };
     extras.gate = guard.gate.get();
-    extras.tls = options.tls;
+    extras.tls = guard.tls;
     extras.limits.connections = options.rest.limits.connections;
     extras.limits.rpcs = options.max_rpcs;
     extras.limits.message_bytes = static_cast<int>(options.max_message_bytes);
+    extras.limits.message_memory = options.max_message_memory;
     extras.limits.streams = static_cast<int>(options.max_streams);
     // Of the disk that files of sessions may take, those that nobody reads just now take a tenth at most.
     constexpr std::uint64_t kRestingShare = 10;
@@ -141,7 +153,7 @@ rest::Backend backend_of(rpc::GrpcServer& server, service::MeshingService& servi
 // Null where --http is off.
 Expected<std::unique_ptr<rest::RestServer>> start_rest(const ServerOptions& options, const std::optional<ListenAddress>& address,
                                                        rest::Backend backend, Metrics& metrics,
-                                                       std::shared_ptr<rest::TlsContexts> tls) {
+                                                       std::shared_ptr<guard::TlsBook> tls) {
     if (!address) return std::unique_ptr<rest::RestServer>();
     const auto observe = [&metrics](const rest::HttpRecord& record) {
         metrics.http_ended(record);
@@ -149,6 +161,7 @@ Expected<std::unique_ptr<rest::RestServer>> start_rest(const ServerOptions& opti
     };
     rest::RestOptions rest = options.rest;
     rest.limits.message_bytes = options.max_message_bytes;
+    rest.on_connection_refused = [&metrics] { metrics.connection_refused(); };
     rest.own_hosts_only = tls == nullptr && options.token_file.empty() && is_loopback(*address);
     return rest::RestServer::start(address->host, address->port, std::move(backend), std::move(rest), observe, std::move(tls));
 }
@@ -173,9 +186,21 @@ Expected<std::optional<store::DataDir>> open_data_dir(const ServerOptions& optio
     return std::optional(*std::move(opened));
 }
 
+// gRPC is to have room for some of the largest messages at once, or it could not take one.
+Status check_message_memory(const ServerOptions& options) {
+    constexpr std::uint64_t kAtLeast = 4;
+    if (options.max_message_memory >= kAtLeast * options.max_message_bytes) return Done{};
+    return Error{Cause::kInvalidOption,
+                 "max-message-memory-bytes is " + std::to_string(options.max_message_memory) +
+                     "; accepted are 0 and four times max-message-bytes or more, " +
+                     std::to_string(kAtLeast * options.max_message_bytes),
+                 "max-message-memory-bytes"};
+}
+
 int serve(const ServerOptions& options, const ListenAddress& address, const std::optional<ListenAddress>& http) {
+    if (Status room = check_message_memory(options); !room) return fail(options, room.error().message);
     const Expected<Guard> guard = make_guard(options);
-    if (!guard) return fail(guard.error().message);
+    if (!guard) return fail(options, guard.error().message);
     Metrics metrics;
     service::ServiceOptions service_options = options.service;
     service_options.job_observer = [&metrics](const service::JobRecord& record) {
@@ -184,21 +209,23 @@ int serve(const ServerOptions& options, const ListenAddress& address, const std:
     };
     if (service_options.limits.memory_bytes == 0) service_options.limits.memory_bytes = service::usual_memory_limit();
     Expected<std::optional<store::DataDir>> data = open_data_dir(options);
-    if (!data) return fail(data.error().message);
+    if (!data) return fail(options, data.error().message);
     if (*data) service_options.temp_directory = (*data)->uploads();
+    if (*data) service_options.limits.disk_bytes = options.max_disk_bytes;
     service::MeshingService service(service_options,
                                     *data ? (*data)->take_archive() : std::make_unique<service::SessionArchive>());
-    if (const Status restored = service.restore(); !restored) return fail(restored.error().message);
+    if (const Status restored = service.restore(); !restored) return fail(options, restored.error().message);
     Expected<std::unique_ptr<rpc::GrpcServer>> server =
         rpc::GrpcServer::start(address.host, address.port, service, extras_of(options, *guard, metrics));
-    if (!server) return fail(server.error().message);
+    if (!server) return fail(options, server.error().message);
     const Expected<std::unique_ptr<rest::RestServer>> rest =
         start_rest(options, http, backend_of(**server, service, metrics, *guard->gate), metrics, guard->tls);
-    if (!rest) return fail(rest.error().message);
+    if (!rest) return fail(options, rest.error().message);
     std::cout << "vsplitd listening on " << address.text(std::to_string((*server)->port()));
     const std::string scheme = guard->tls == nullptr ? "http://" : "https://";
     if (*rest) std::cout << " and " << scheme << http->text(std::to_string((*rest)->port()));
     std::cout << std::endl;
+    const service::Sweeper trimmer(kTrimPause, return_free_memory);
     const int signal = wait_for_stop_signal();
     spdlog::info("signal {}: draining for at most {} s; a second signal ends it at once", signal, options.drain);
     std::thread([] { std::_Exit(128 + wait_for_stop_signal()); }).detach();
@@ -208,20 +235,20 @@ int serve(const ServerOptions& options, const ListenAddress& address, const std:
     return 0;
 }
 
-int print_new_token(const std::string& request) {
-    const Expected<NewToken> made = make_token(request);
-    if (!made) return fail(made.error().message);
+int print_new_token(const ServerOptions& options) {
+    const Expected<NewToken> made = make_token(options.new_token);
+    if (!made) return fail(options, made.error().message);
     std::cout << made->token << '\n' << made->line << '\n';
     return 0;
 }
 
-int print_openapi() {
+int print_openapi(const ServerOptions& options) {
     const std::vector<std::string_view> sets{rest::contract_descriptors()};
     const std::vector<std::string> services{v1::Meshing::service_full_name()};
     const auto schema = rest::Schema::make(sets, services);
-    if (!schema) return fail(schema.error().message);
+    if (!schema) return fail(options, schema.error().message);
     const auto router = rest::Router::make(**schema);
-    if (!router) return fail(router.error().message);
+    if (!router) return fail(options, router.error().message);
     std::cout << rest::openapi_document(**schema, *router, VSPLIT_VERSION);
     return 0;
 }
@@ -230,27 +257,29 @@ int run(int argc, const char* const* argv) {
     const std::variant<ServerOptions, int> parsed = parse_server_options(argc, argv);
     if (const int* status = std::get_if<int>(&parsed)) return *status;
     const auto& options = std::get<ServerOptions>(parsed);
-    if (options.print_openapi) return print_openapi();
-    if (!options.new_token.empty()) return print_new_token(options.new_token);
+    if (options.print_openapi) return print_openapi(options);
+    if (!options.new_token.empty()) return print_new_token(options);
     const Expected<ListenAddress> address = parse_listen_address("listen", options.listen);
-    if (!address) return fail(address.error().message);
+    if (!address) return fail(options, address.error().message);
     std::optional<ListenAddress> http;
     if (options.http != "off") {
         const Expected<ListenAddress> at = parse_listen_address("http", options.http);
-        if (!at) return fail(at.error().message);
+        if (!at) return fail(options, at.error().message);
         http = *at;
     }
     if (Status safe = options.check ? Status(Done{}) : check_exposure(options, *address, http); !safe)
-        return fail(safe.error().message);
+        return fail(options, safe.error().message);
     if (options.check) {
         const Status serves = check_server(*address, options.tls);
-        return serves ? 0 : fail(serves.error().message);
+        return serves ? 0 : fail(options, serves.error().message);
     }
     block_stop_signals();
     return_large_memory();
     take_all_descriptors();
     start_logging({options.log_level, options.log_format == "json", options.slow_job});
-    return serve(options, *address, http);
+    const int status = serve(options, *address, http);
+    flush_log();
+    return status;
 }
 
 }  // namespace

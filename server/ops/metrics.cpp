@@ -46,7 +46,8 @@ Metrics::Metrics()
       requests_(counters(registry_, "vsplit_http_requests_total", "HTTP requests that ended; status 0 had no answer")),
       http_in_(counters(registry_, "vsplit_http_bytes_total", "Bytes of HTTP bodies").Add({{"direction", "in"}})),
       http_out_(counters(registry_, "vsplit_http_bytes_total", "Bytes of HTTP bodies").Add({{"direction", "out"}})),
-      refused_(counters(registry_, "vsplit_connections_refused_total", "gRPC connections over --max-connections").Add({})),
+      refused_(
+          counters(registry_, "vsplit_connections_refused_total", "Connections over --max-connections, of both doors").Add({})),
       jobs_(counters(registry_, "vsplit_jobs_total", "Methods that a worker was at, by outcome")),
       job_seconds_(prometheus::BuildHistogram().Name("vsplit_job_seconds").Help("How long methods ran").Register(registry_)),
       job_waited_(
@@ -67,7 +68,7 @@ Metrics::Metrics()
       started_(gauge(registry_, "process_start_time_seconds", "When the process began, seconds since 1970")) {
     started_.SetToCurrentTime();
     // A label's values are known from the first scrape on: a rate over a counter that appears late misses its first step.
-    for (const char* method : {"Improve", "Control"}) {
+    for (const char* method : {"Improve", "Control", "RemoveFeatures"}) {
         jobs_.Add({{"method", method}, {"outcome", "OK"}});
         job_faces_.Add({{"method", method}});
     }

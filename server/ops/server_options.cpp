@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "ops/logging.h"
 #include "ops/number_range.h"
 
 namespace vsplit::ops {
@@ -21,6 +22,7 @@ constexpr unsigned kMostThreads = 1024;
 constexpr std::uint32_t kDay = 24 * 3600;
 constexpr std::uint32_t kMostStreams = std::uint32_t{1} << 30;
 constexpr std::uint32_t kLeastMessageBytes = std::uint32_t{1} << 16;
+constexpr std::uint64_t kMessagesInMemory = 16;
 constexpr std::uint32_t kMostMessageBytes = std::uint32_t{1} << 30;
 
 bool takes_free_port(std::string_view listen) { return listen.size() > 2 && listen.substr(listen.size() - 2) == ":0"; }
@@ -48,6 +50,9 @@ public:
 
     ServerOptions options() {
         options_.service.session_ttl = std::chrono::seconds(ttl_);
+        if (options_.max_message_memory == 0) {
+            options_.max_message_memory = kMessagesInMemory * std::uint64_t{options_.max_message_bytes};
+        }
         std::erase(options_.rest.cors_origins, "");  // how a file says that there is none
         // Who asks for a free port wants to be in nobody's way.
         if (http_->empty() && takes_free_port(options_.listen)) options_.http = "127.0.0.1:0";
@@ -134,6 +139,8 @@ private:
                    "Rpcs of one gRPC connection at a time; more wait at the client");
         add_within(number_range(kLeastMessageBytes, kMostMessageBytes), "--max-message-bytes", options_.max_message_bytes,
                    "Bytes of one gRPC message");
+        add("--max-message-memory-bytes", options_.max_message_memory,
+            "Bytes of gRPC messages on their way in, of all connections; 0: sixteen of the largest", 0);
         add("--max-connections", options_.rest.limits.connections, "Connections at a time, by gRPC and by HTTP each");
         add_within(number_range(0.0, 1e9), "--max-request-rate", options_.max_request_rate,
                    "Requests a second of one client, a token or else an address, and twice as many at once; 0: no limit");
@@ -185,6 +192,16 @@ void add_environment(CLI::App& app, const Environment& environment, std::vector<
     arguments.insert(arguments.begin(), more.begin(), more.end());
 }
 
+// Before anything is parsed: for what is wrong with the rest.
+bool asks_for_json(const std::vector<std::string>& arguments) {
+    constexpr std::string_view kOption = "--log-format";
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        if (arguments[i] == std::string(kOption) + "=json") return true;
+        if (arguments[i] == kOption && i + 1 < arguments.size() && arguments[i + 1] == "json") return true;
+    }
+    return false;
+}
+
 std::string names_of(const CLI::App& app) {
     std::string names;
     for (const CLI::Option* option : app.get_options()) {
@@ -205,13 +222,15 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     Parser parser;
     std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
     add_environment(parser.app(), environment, arguments);
+    const bool json = asks_for_json(arguments);
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     try {
         parser.app().parse(std::move(arguments));
     } catch (const CLI::ConfigError& error) {
-        std::cerr << "vsplitd: the file of --config: " << error.what() << "; accepted are " << names_of(parser.app()) << '\n';
+        say_failure(std::string("the file of --config: ") + error.what() + "; accepted are " + names_of(parser.app()), json);
         return 1;
     } catch (const CLI::ParseError& error) {
+        if (json && error.get_exit_code() != 0) return say_failure(error.what(), json), 1;
         return parser.app().exit(error, std::cout, std::cerr) == 0 ? 0 : 1;
     }
     if (parser.print_config()) {

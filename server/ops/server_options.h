@@ -34,6 +34,7 @@ struct ServerOptions {
     double max_request_rate = 0;                 ///< of a client, a second; 0: no limit
     std::uint32_t max_rpcs = 10'000;             ///< at a time
     std::uint32_t max_message_bytes = 16 << 20;  ///< of one gRPC message
+    std::uint64_t max_message_memory = 0;        ///< of messages on their way in, by gRPC; 0: sixteen of the largest
     std::uint32_t max_streams = 1000;            ///< rpcs of one gRPC connection at a time
     std::uint32_t drain = 5;                     ///< seconds that what runs has after SIGTERM
     std::uint32_t keepalive = 60;          ///< seconds of silence on a gRPC connection before it is asked for a sign of life

@@ -135,7 +135,9 @@ Awaitable<void> Connection::refuse() {
         co_return;
     }
     Exchange exchange(stream_, buffer_, parser, manner, gateway_.limits());
-    Error error{Cause::kUnavailable, "the server has as many connections as it takes", "", 1};
+    Error error{Cause::kUnavailable,
+                "the server has " + std::to_string(gateway_.limits().connections) + " connections, its limit max_connections", "",
+                1};
     co_await exchange.fail(problem_of(error));
     co_await linger();
     stream_.close();

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct RestOptions {
     RestLimits limits;
     std::vector<std::string> cors_origins;  ///< pages of these origins may use the server; "*" for all. Default: none but its own
     bool own_hosts_only = false;  ///< refuses a Host that is_own_host does not know; for servers that trust who reaches them
-    unsigned threads = 2;         ///< that speak to clients; none of them computes
+    std::function<void()> on_connection_refused{};  ///< of a connection over the limit
+    unsigned threads = 2;                           ///< that speak to clients; none of them computes
 };
 
 }  // namespace vsplit::rest

@@ -15,11 +15,12 @@ using net::ip::tcp;
 class RestServer::Listener {
 public:
     Listener(std::shared_ptr<net::io_context> context, std::unique_ptr<Gateway> gateway, HttpObserver observer,
-             std::shared_ptr<TlsContexts> tls)
+             std::shared_ptr<guard::TlsBook> tls, std::function<void()> on_refused)
         : context_(std::move(context)),
           gateway_(std::move(gateway)),
           observer_(std::move(observer)),
           tls_(std::move(tls)),
+          on_refused_(std::move(on_refused)),
           work_(net::make_work_guard(*context_)),
           acceptor_(net::make_strand(*context_)),
           pause_(acceptor_.get_executor()) {}
@@ -91,7 +92,7 @@ private:
     void welcome(tcp::socket socket) {
         const auto executor = socket.get_executor();
         const auto connection =
-            std::make_shared<Connection>(std::move(socket), tls_ ? tls_->current() : nullptr, *gateway_, observer_);
+            std::make_shared<Connection>(std::move(socket), tls_ ? tls_->current()->context : nullptr, *gateway_, observer_);
         bool room = false;
         {
             const std::lock_guard lock(mutex_);
@@ -99,6 +100,7 @@ private:
             connections_.insert(connection);
             if (draining_) connection->drain();
         }
+        if (!room && on_refused_) on_refused_();
         net::co_spawn(executor, room ? connection->run() : connection->refuse(),
                       [this, connection](const std::exception_ptr& /*bad_alloc*/) { leave(connection); });
     }
@@ -112,7 +114,8 @@ private:
     const std::shared_ptr<net::io_context> context_;
     const std::unique_ptr<Gateway> gateway_;
     const HttpObserver observer_;
-    const std::shared_ptr<TlsContexts> tls_;
+    const std::shared_ptr<guard::TlsBook> tls_;
+    const std::function<void()> on_refused_;
     net::executor_work_guard<net::io_context::executor_type> work_;
     tcp::acceptor acceptor_;
     net::steady_timer pause_;
@@ -128,12 +131,14 @@ private:
 
 Expected<std::unique_ptr<RestServer>> RestServer::start(const std::string& host, const std::string& port, Backend backend,
                                                         RestOptions options, HttpObserver observer,
-                                                        std::shared_ptr<TlsContexts> tls) {
+                                                        std::shared_ptr<guard::TlsBook> tls) {
     auto context = std::make_shared<net::io_context>();
     const unsigned threads = options.threads;
+    auto on_refused = options.on_connection_refused;
     Expected<std::unique_ptr<Gateway>> gateway = Gateway::make(std::move(backend), std::move(options));
     if (!gateway) return gateway.error();
-    auto listener = std::make_shared<Listener>(std::move(context), *std::move(gateway), std::move(observer), std::move(tls));
+    auto listener = std::make_shared<Listener>(std::move(context), *std::move(gateway), std::move(observer), std::move(tls),
+                                               std::move(on_refused));
     if (Status listening = listener->listen(host, port); !listening) return listening.error();
     listener->run(threads);
     return std::unique_ptr<RestServer>(new RestServer(std::move(listener)));

@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
+#include "guard/tls_book.h"
 #include "rest/connection.h"
 #include "rest/gateway.h"
 #include "rest/rest_options.h"
-#include "rest/tls.h"
 #include "vsplit/base/expected.h"
 
 namespace vsplit::rest {
@@ -19,7 +19,7 @@ public:
     /// what Gateway::make returns.
     [[nodiscard]] static Expected<std::unique_ptr<RestServer>> start(const std::string& host, const std::string& port,
                                                                      Backend backend, RestOptions options, HttpObserver observer,
-                                                                     std::shared_ptr<TlsContexts> tls = nullptr);
+                                                                     std::shared_ptr<guard::TlsBook> tls = nullptr);
     ~RestServer();
     RestServer(const RestServer&) = delete;
     RestServer& operator=(const RestServer&) = delete;

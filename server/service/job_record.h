@@ -10,9 +10,9 @@
 
 namespace vsplit::service {
 
-/// One method that a worker was at.
+/// One method that a worker was at, or one removal of features.
 struct JobRecord {
-    std::string_view method;  ///< "Improve" or "Control"
+    std::string_view method;  ///< "Improve", "Control" or "RemoveFeatures"
     std::string session{};
     std::string request_id{};  ///< of the call that asked for it
     double waited = 0;         ///< seconds between the call and the worker

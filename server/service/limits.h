@@ -11,7 +11,7 @@ namespace vsplit::service {
 /// When to try again after a limit on what the server does and holds at a time, seconds.
 inline constexpr unsigned kRetryAfter = 5;
 
-/// What a client may use up. Every limit is a flag of vsplitd; going beyond one is LIMIT_EXCEEDED and names it.
+/// What a client may use up. Each of these is a flag of vsplitd; going beyond one is LIMIT_EXCEEDED and names it.
 struct Limits {
     std::uint64_t upload_bytes = std::uint64_t{4} << 30;  ///< of one uploaded file
     std::uint32_t faces = 20'000'000;                     ///< of an uploaded mesh
@@ -22,6 +22,7 @@ struct Limits {
     std::uint32_t waiting_jobs = 8;                       ///< of a session, besides the one that runs
     std::uint32_t queued_jobs = 1000;                     ///< of all sessions, for a worker or for another of their session
     std::uint32_t job_seconds = 3600;                     ///< that one method runs
+    std::uint64_t disk_bytes = 0;                         ///< of the archive and of uploads on their way; 0: no limit
     std::uint64_t memory_bytes = 0;                       ///< of meshes, representations and methods together; 0: no limit
 };
 

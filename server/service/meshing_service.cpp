@@ -22,6 +22,7 @@ MeshingService::MeshingService(const ServiceOptions& options, std::unique_ptr<Se
     : options_(options),
       memory_(options.limits.memory_bytes),
       archive_(std::move(archive)),
+      upload_room_(*archive_, options.limits.disk_bytes),
       methods_(options.workers == 0 ? cores() : options.workers),
       errands_(std::max(2U, cores())),
       intake_(std::max(2U, cores())),
@@ -57,6 +58,7 @@ Expected<SessionSnapshot> MeshingService::create_session(const Caller& caller) {
 
 Expected<SessionSnapshot> MeshingService::create_session(std::span<const std::byte> bytes, const MeshSettings& settings,
                                                          const Caller& caller, const StillWanted& wanted) {
+    if (Status fits = check_upload_bytes(bytes.size(), options_.limits, "mesh"); !fits) return fits.error();
     if (Status room = sessions_.require_room(caller.owner); !room) return room.error();
     if (Status ok = check_settings(settings); !ok) return ok.error();
     Expected<std::shared_ptr<const SourceMesh>> source = read_source(bytes, settings, options_.limits, memory_, wanted);
@@ -70,7 +72,7 @@ Expected<SessionSnapshot> MeshingService::create_session(std::span<const std::by
 Expected<Upload> MeshingService::begin_upload(std::string_view session, const UploadSettings& settings, const Caller& caller) {
     Expected<std::shared_ptr<Session>> found = sessions_.find(session, caller.owner);
     if (!found) return found.error();
-    return Upload::begin(*std::move(found), settings, options_, memory_);
+    return Upload::begin(*std::move(found), settings, options_, memory_, upload_room_);
 }
 
 Expected<RunningMethod> MeshingService::start(std::string_view session, const MethodRequest& request, JobEvents events,

@@ -58,8 +58,8 @@ public:
     /// An empty session. May wait for the archive. \return LIMIT_EXCEEDED, what SessionArchive::add returns.
     [[nodiscard]] Expected<SessionSnapshot> create_session(const Caller& caller = {});
 
-    /// A session with a mesh, or none at all. Heavy: for `intake`. \return LIMIT_EXCEEDED, what `check_settings` and
-    /// `read_source` return.
+    /// A session with a mesh, or none at all. Heavy: for `intake`. \return LIMIT_EXCEEDED, naming mesh where it is too large,
+    /// what `check_settings` and `read_source` return.
     [[nodiscard]] Expected<SessionSnapshot> create_session(std::span<const std::byte> bytes, const MeshSettings& settings,
                                                            const Caller& caller = {}, const StillWanted& wanted = always_wanted);
 
@@ -100,6 +100,7 @@ private:
     const ServiceOptions options_;
     MemoryBudget memory_;
     const std::unique_ptr<SessionArchive> archive_;
+    UploadRoom upload_room_;
     WorkerPool methods_;
     WorkerPool errands_;
     WorkerPool intake_;

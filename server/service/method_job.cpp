@@ -124,10 +124,12 @@ MethodLimits MethodJob::limits() {
 /// With the server's limit by its name, where the method knows but a number.
 Error MethodJob::explained(Error error) const {
     const Limits& limits = host_.options.limits;
-    if (error.cause != Cause::kLimitExceeded || faces_in_memory() >= limits.faces_subdivided) return error;
-    if (error.message.find("max_memory_bytes") == std::string::npos) {
-        error.message += "; the server's limit max_memory_bytes, " + std::to_string(limits.memory_bytes) + ", allows no more";
-    }
+    if (error.cause != Cause::kLimitExceeded || error.message.find("max_memory_bytes") != std::string::npos) return error;
+    const bool by_memory = faces_in_memory() < limits.faces_subdivided;
+    if (!by_memory && error.message.find(", the limit") == std::string::npos) return error;
+    error.message += by_memory
+                         ? "; the server's limit max_memory_bytes, " + std::to_string(limits.memory_bytes) + ", allows no more"
+                         : "; the server's limit max_faces_subdivided is " + std::to_string(limits.faces_subdivided);
     return error;
 }
 

@@ -1,5 +1,7 @@
 #include "service/session_features.h"
 
+#include <chrono>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -53,6 +55,27 @@ Expected<FeaturesFound> list_features_of(MeshingService& service, std::string_vi
     });
 }
 
+namespace {
+
+/// Tells the metrics and the log.
+void record(const MeshingService& service, const Session& session, const Caller& caller, std::uint32_t faces,
+            std::chrono::steady_clock::time_point began, const Expected<FeaturesRemoved>& outcome) {
+    if (!service.options().job_observer) return;
+    JobRecord record{"RemoveFeatures"};
+    record.session = session.id();
+    record.request_id = caller.request_id;
+    record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    record.faces_in = faces;
+    if (outcome) {
+        record.faces_out = static_cast<std::uint32_t>(outcome->made.mesh.face_count());
+    } else {
+        record.outcome = outcome.error().cause;
+    }
+    service.options().job_observer(record);
+}
+
+}  // namespace
+
 Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::string_view session, const FeatureRemoval& removal,
                                              const StillWanted& wanted, const Caller& caller) {
     const Expected<std::shared_ptr<Session>> found = service.sessions().find(session, caller.owner);
@@ -61,9 +84,12 @@ Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::strin
     if (Status idle = (*found)->require_idle(); !idle) return idle.error();
     const Expected<std::shared_ptr<const SourceMesh>> before = source_of(**found);
     if (!before) return before.error();
-    return guarded([&]() -> Expected<FeaturesRemoved> {
+    const auto began = std::chrono::steady_clock::now();
+    std::uint32_t faces = 0;
+    Expected<FeaturesRemoved> outcome = guarded([&]() -> Expected<FeaturesRemoved> {
         const Expected<std::shared_ptr<const TriangleMesh>> whole = (*before)->mesh->get();
         if (!whole) return whole.error();
+        faces = static_cast<std::uint32_t>((*whole)->face_count());
         Expected<FeaturelessMesh> made = remove_within_limits(service, **whole, removal, wanted);
         if (!made) return made.error();
         if (made->removed.empty()) return FeaturesRemoved{*std::move(made), *before};
@@ -75,6 +101,8 @@ Expected<FeaturesRemoved> remove_features_of(MeshingService& service, std::strin
         (*found)->touch();
         return FeaturesRemoved{*std::move(made), std::move(source)};
     });
+    record(service, **found, caller, faces, began, outcome);
+    return outcome;
 }
 
 }  // namespace vsplit::service

@@ -1,5 +1,6 @@
 #include "service/source_mesh.h"
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,18 @@ Status check_settings(const MeshSettings& settings) {
     if (!welded) return welded.error();
     return Done{};
 }
+
+namespace {
+
+/// With the server's limit by its name, where a reader knows but a number.
+Error explained(Error error, const Limits& limits) {
+    if (error.cause == Cause::kLimitExceeded &&
+        error.message.find("limit of " + std::to_string(limits.faces)) != std::string::npos)
+        error.message += ", the server's max_faces";
+    return error;
+}
+
+}  // namespace
 
 std::shared_ptr<const SourceMesh> make_source(TriangleMesh mesh, MeshReport report, MemoryBudget& budget) {
     const std::uint64_t bytes = memory_of(mesh);
@@ -38,7 +51,7 @@ Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byt
             return Done{};
         };
         Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces, settings.unit, make_room});
-        if (!read) return read.error();
+        if (!read) return explained(read.error(), limits);
         const BoundedWork work("reading this mesh", limits, wanted);
         Expected<MeshReport> report = inspect_source(read->mesh, read->weld, settings.repair, work.context());
         if (!report) return work.explained(report.error());

@@ -4,35 +4,34 @@
 #include <utility>
 
 namespace vsplit::service {
-namespace {
 
-Error too_large(std::uint64_t bytes, const Limits& limits, const char* field) {
-    return {Cause::kLimitExceeded,
-            "the file has " + std::to_string(bytes) + " bytes or more; the server's limit max_upload_bytes is " +
-                std::to_string(limits.upload_bytes),
-            field};
+Status check_upload_bytes(std::uint64_t bytes, const Limits& limits, const char* field) {
+    if (bytes <= limits.upload_bytes) return Done{};
+    return Error{Cause::kLimitExceeded,
+                 "the file has " + std::to_string(bytes) + " bytes or more; the server's limit max_upload_bytes is " +
+                     std::to_string(limits.upload_bytes),
+                 field};
 }
 
-}  // namespace
-
 Upload::Upload(std::shared_ptr<Session> session, const UploadSettings& settings, const Limits& limits, MemoryBudget& memory,
-               TempFile file)
+               std::unique_ptr<UploadRoom::Share> room, TempFile file)
     : session_(std::move(session)),
       held_(Session::hold(session_)),
       settings_(settings),
       limits_(limits),
       memory_(&memory),
+      room_(std::move(room)),
       file_(std::move(file)) {}
 
 Expected<Upload> Upload::begin(std::shared_ptr<Session> session, const UploadSettings& settings, const ServiceOptions& options,
-                               MemoryBudget& memory) {
+                               MemoryBudget& memory, UploadRoom& disk) {
     const Limits& limits = options.limits;
-    if (settings.size > limits.upload_bytes) return too_large(*settings.size, limits, "size");
+    if (Status fits = check_upload_bytes(settings.size.value_or(0), limits, "size"); !fits) return fits.error();
     if (Status ok = check_settings(settings.mesh); !ok) return ok.error();
     if (Status idle = session->require_idle(); !idle) return idle.error();
     Expected<TempFile> file = TempFile::create(options.temp_directory);
     if (!file) return file.error();
-    return Upload(std::move(session), settings, limits, memory, *std::move(file));
+    return Upload(std::move(session), settings, limits, memory, disk.share(), *std::move(file));
 }
 
 Status Upload::append(std::uint64_t offset, std::span<const std::byte> bytes) {
@@ -45,12 +44,13 @@ Status Upload::append(std::uint64_t offset, std::span<const std::byte> bytes) {
                      "offset"};
     }
     const std::uint64_t total = expected + bytes.size();
-    if (total > limits_.upload_bytes) return too_large(total, limits_, "data");
+    if (Status fits = check_upload_bytes(total, limits_, "data"); !fits) return fits;
     if (settings_.size && total > *settings_.size) {
         return Error{Cause::kMalformedInput,
                      "at least " + std::to_string(total) + " bytes came, " + std::to_string(*settings_.size) + " were declared",
                      "size"};
     }
+    if (Status room = room_->grow(bytes.size()); !room) return room;
     return file_.append(bytes);
 }
 

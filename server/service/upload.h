@@ -10,6 +10,7 @@
 #include "service/session.h"
 #include "service/source_mesh.h"
 #include "service/temp_file.h"
+#include "service/upload_room.h"
 
 namespace vsplit::service {
 
@@ -19,6 +20,9 @@ struct UploadSettings {
     std::optional<std::uint64_t> size;  ///< bytes of the whole file
 };
 
+/// One rule for every way that a file comes by. \return LIMIT_EXCEEDED, naming `field`.
+[[nodiscard]] Status check_upload_bytes(std::uint64_t bytes, const Limits& limits, const char* field);
+
 /// A mesh file on its way into a session, kept in an unnamed temporary file meanwhile. The session changes with a `commit` that
 /// succeeds and by nothing else; of two uploads at once the one that commits last stays. Not thread-safe.
 class Upload {
@@ -26,7 +30,7 @@ public:
     /// \return LIMIT_EXCEEDED for a declared size over the limit, INVALID_OPTION (weld), BUSY, NOT_FOUND, what `disk_error`
     /// returns.
     [[nodiscard]] static Expected<Upload> begin(std::shared_ptr<Session> session, const UploadSettings& settings,
-                                                const ServiceOptions& options, MemoryBudget& memory);
+                                                const ServiceOptions& options, MemoryBudget& memory, UploadRoom& disk);
 
     /// Takes the next bytes; writes to the disk. \return OUT_OF_ORDER when `offset` is not the number of bytes taken so far;
     /// LIMIT_EXCEEDED; MALFORMED_INPUT for more than the declared size; what `disk_error` returns.
@@ -38,13 +42,14 @@ public:
 
 private:
     Upload(std::shared_ptr<Session> session, const UploadSettings& settings, const Limits& limits, MemoryBudget& memory,
-           TempFile file);
+           std::unique_ptr<UploadRoom::Share> room, TempFile file);
 
     std::shared_ptr<Session> session_;
     std::shared_ptr<void> held_;
     UploadSettings settings_;
     Limits limits_;
     MemoryBudget* memory_;
+    std::unique_ptr<UploadRoom::Share> room_;
     TempFile file_;
 };
 

@@ -173,6 +173,23 @@ TEST_F(AccessTest, NoRpcTakesACallWithoutAKnownToken) {
     expect_whole();
 }
 
+// What a stranger would send takes no memory then. The deadline is that of `as`: a server that waits for the message misses it.
+TEST_F(AccessTest, AStrangerIsRefusedBeforeItsMessage) {
+    for (const pb::MethodDescriptor* rpc : rpcs()) {
+        const auto context = as("a-guess");
+        grpc::CompletionQueue queue;
+        const auto stream = stub_.PrepareCall(context.get(), '/' + contract().full_name() + '/' + rpc->name(), &queue);
+        stream->StartCall(nullptr);
+        void* tag = nullptr;
+        bool ok = false;
+        queue.Next(&tag, &ok);
+        grpc::Status status;
+        stream->Finish(&status, nullptr);
+        queue.Next(&tag, &ok);
+        EXPECT_EQ(status.error_code(), StatusCode::UNAUTHENTICATED) << rpc->name() << ": " << status.error_message();
+    }
+}
+
 TEST_F(AccessTest, NoRpcThatWritesTakesAReadOnlyToken) {
     std::size_t writing = 0;
     for (const pb::MethodDescriptor* rpc : rpcs()) {

@@ -73,6 +73,21 @@ TEST(ConnectionsTest, SilentOnesCountToo) {
     EXPECT_TRUE(eventually([&] { return ask(channel_of_its_own(server)).ok(); }));
 }
 
+TEST(ConnectionsTest, SilentOnesAreCutOff) {
+    rpc::GrpcExtras extras = room_for(50);
+    extras.life.handshake = std::chrono::seconds(1);
+    TestServer server(small_server(), extras);
+    boost::asio::io_context context;
+    std::vector<tcp::socket> silent;
+    for (int i = 0; i < 50; ++i) {
+        silent.push_back(connected(context, server.port()));
+        // Some begin, and say no more than HTTP/2's first words.
+        if (i % 2 == 0) silent.back().send(boost::asio::buffer(std::string("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n")));
+    }
+    EXPECT_FALSE(ask(channel_of_its_own(server)).ok());
+    EXPECT_TRUE(eventually([&] { return ask(channel_of_its_own(server)).ok(); }));
+}
+
 TEST(ConnectionsTest, UrgentDataIsNoEnd) {
     TestServer server(small_server(), room_for(1));
     boost::asio::io_context context;

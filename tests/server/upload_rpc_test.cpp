@@ -55,6 +55,25 @@ TEST_F(UploadRpcTest, ReplacesTheMeshAndDropsRepresentations) {
     EXPECT_TRUE(failed_with(download(server_.stub(), session_, "r1").status, Cause::kNotFound, "representation"));
 }
 
+TEST(UploadStallTest, AnUploadThatSendsNothingEnds) {
+    rpc::GrpcExtras extras;
+    extras.upload_patience = std::chrono::milliseconds(300);
+    TestServer server(small_server(), extras);
+    const std::string session = create_session(server.stub()).message.id();
+    v1::UploadMeshRequest part;
+    part.set_session(session);
+    for (const bool starts : {false, true}) {
+        v1::Session response;
+        const auto context = call();
+        const auto writer = server.stub().UploadMesh(context.get(), &response);
+        if (starts) {
+            EXPECT_TRUE(writer->Write(part));
+        }
+        EXPECT_TRUE(failed_with(writer->Finish(), Cause::kUnavailable, "")) << starts;
+    }
+    EXPECT_TRUE(upload(server.stub(), session, file_of(torus(40, 20))).status.ok()) << "nothing is left of it";
+}
+
 TEST_F(UploadRpcTest, TheDownloadIsTheUploadExactly) {
     ASSERT_TRUE(upload(server_.stub(), session_, file_).status.ok());
     EXPECT_EQ(download(server_.stub(), session_).file, file_);
@@ -140,6 +159,8 @@ TEST_F(UploadRpcTest, RefusesBytesOverTheLimitAsTheyCome) {
     const auto reply = upload_parts(server.stub(), {first, part(6000, file_.substr(6000, 6000))});
     EXPECT_TRUE(failed_with(reply.status, Cause::kLimitExceeded, "data"));
     EXPECT_FALSE(get_session(server.stub(), id).message.has_source());
+    const auto whole = create_session(server.stub(), file_);
+    EXPECT_TRUE(failed_with(whole.status, Cause::kLimitExceeded, "mesh")) << "the other way has the same limit";
 }
 
 TEST_F(UploadRpcTest, IsBusyWhileAMethodRunsAndFreeAfterwards) {

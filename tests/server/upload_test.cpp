@@ -25,7 +25,7 @@ bool always() { return true; }
 class UploadTest : public ::testing::Test {
 protected:
     Expected<Upload> begin(std::optional<std::uint64_t> size = std::nullopt) {
-        return Upload::begin(session_, {{}, size}, options_, memory_);
+        return Upload::begin(session_, {{}, size}, options_, memory_, disk_);
     }
 
     // The session is as it was before any upload.
@@ -34,6 +34,7 @@ protected:
     ServiceOptions options_;
     MemoryBudget memory_{0};
     SessionArchive archive_;
+    UploadRoom disk_{archive_, 1000};
     WorkerPool workers_{1};
     std::shared_ptr<Session> session_ =
         std::make_shared<Session>(SessionRecord{.number = 1, .id = "id", .expires = std::chrono::hours(1)}, Session::Clock::now(),
@@ -56,7 +57,7 @@ TEST_F(UploadTest, AClientThatLeavesEndsTheRepair) {
     UploadSettings settings;
     settings.mesh.repair = RepairMode::kFull;
     const auto commit_asked = [&](int times) {
-        Expected<Upload> upload = Upload::begin(session_, settings, options_, memory_);
+        Expected<Upload> upload = Upload::begin(session_, settings, options_, memory_, disk_);
         EXPECT_TRUE(upload && upload->append(0, bytes_of(file_)));
         std::atomic<int> left = times;
         return upload->commit([&] { return left-- > 0; });
@@ -74,12 +75,29 @@ TEST_F(UploadTest, RepairIsWorkWhoseTimeEnds) {
     options_.limits.job_seconds = 0;
     UploadSettings settings;
     settings.mesh.repair = RepairMode::kFull;
-    Expected<Upload> upload = Upload::begin(session_, settings, options_, memory_);
+    Expected<Upload> upload = Upload::begin(session_, settings, options_, memory_, disk_);
     ASSERT_TRUE(upload && upload->append(0, bytes_of(file_)));
     const Expected<SessionSnapshot> session = upload->commit(always);
     ASSERT_FALSE(session);
     EXPECT_THAT(session.error().message, HasSubstr("max_job_seconds"));
     EXPECT_TRUE(unharmed());
+}
+
+TEST_F(UploadTest, UploadsOnTheirWayTakeDiskTogether) {
+    const std::string part(400, ' ');
+    {
+        Expected<Upload> first = begin(), second = begin();
+        ASSERT_TRUE(first && second);
+        ASSERT_TRUE(first->append(0, bytes_of(part)));
+        ASSERT_TRUE(second->append(0, bytes_of(part)));
+        const Status refused = first->append(400, bytes_of(part));
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().cause, Cause::kLimitExceeded);
+        EXPECT_THAT(refused.error().message, HasSubstr("max_disk_bytes, 1000"));
+    }
+    Expected<Upload> next = begin();
+    ASSERT_TRUE(next);
+    EXPECT_TRUE(next->append(0, bytes_of(std::string(1000, ' ')))) << "what has ended takes none";
 }
 
 TEST_F(UploadTest, RefusesADeclaredSizeOverTheLimitBeforeAnyByte) {
@@ -134,7 +152,7 @@ TEST_F(UploadTest, ChangesNothingWhenItIsNotWantedAnyMore) {
 
 TEST_F(UploadTest, RefusesAWeldThatIsNoLengthBeforeAnyByte) {
     for (const double weld : {-1.0, std::nan(""), HUGE_VAL}) {
-        const Expected<Upload> upload = Upload::begin(session_, {{std::nullopt, weld}, std::nullopt}, options_, memory_);
+        const Expected<Upload> upload = Upload::begin(session_, {{std::nullopt, weld}, std::nullopt}, options_, memory_, disk_);
         ASSERT_FALSE(upload) << weld;
         EXPECT_EQ(upload.error().cause, Cause::kInvalidOption);
         EXPECT_EQ(upload.error().field, "weld");
