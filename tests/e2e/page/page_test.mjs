@@ -228,16 +228,18 @@ const steps = {
     const near = (place, { x = 0, y = 0, z = 0 }) => place.every((v, axis) => Math.abs(v - [x, y, z][axis]) < 1e-4);
     const title = (cause) => cause.toLowerCase().replace(/_/g, " ");
     const notes = [["min_stretch not met", violations.find(({ bound }) => bound === "min_stretch").elements], [title(slivers[0].cause), slivers[0].elements]];
+    const resting = () => page.waitForFunction(() => !/not known yet/.test(document.getElementById("notes").textContent));
     const { worstFaces } = await (await fetch(`${address}/v1/sessions/${shown.session}/quality?representation=r3&faces=${faces}&worst=1000`)).json();
     const go = async (note, n) => {
       await page.evaluate(() => delete document.getElementById("canvas").dataset.flown);
-      await page.click(`#notes .note:has(strong:text-is("${note}")) button:nth-child(${n + 1})`);
+      await page.locator(`#notes .note:has(strong:text-is("${note}"))`).last().locator("button").nth(n).click();
       await page.waitForSelector("#canvas[data-flown]");
     };
     for (const [note, elements] of notes) {
       await slide(page, 0.3);
       await settled(page);
       assert.notEqual((await shownOn(page)).result, faces);
+      await resting();
       const n = Math.min(3, elements.length - 1);
       const { centroid } = worstFaces.find((one) => (one.face ?? 0) === elements[n]);
       await go(note, n);
@@ -250,6 +252,31 @@ const steps = {
     await go("max_valence not met", 0);
     assert.ok(near(await flown(), { x, y, z }), `${await flown()} where the file has ${[x, y, z]}`);
     await page.fill("#control-minStretch", "");
+  },
+
+  async "broken bounds are those of the resolution that is shown, also after a reload"({ page, address }) {
+    const { result: asked } = await shownOn(page);
+    const english = new Intl.NumberFormat("en");
+    const isSaid = async () => {
+      const { session, result } = await shownOn(page);
+      const answer = await fetch(`${address}/v1/sessions/${session}:setResolution`, { method: "POST", headers: { Accept: "application/json" }, body: JSON.stringify({ representation: "r3", faces: result }) });
+      const { violations } = await answer.json();
+      assert.ok(violations.length > 0 && result !== asked);
+      await page.waitForFunction((words) => document.getElementById("notes").textContent.startsWith(words), `The result, at ${english.format(result)} faces:`);
+      for (const [n, { bound, count }] of violations.entries()) {
+        const note = await page.locator("#notes .note.bad").nth(n).textContent();
+        assert.ok(note.startsWith(`${bound} not met`) && note.includes(` ${english.format(count)} ${bound === "max_valence" ? "vert" : "face"}`), note);
+      }
+    };
+    for (const share of [0.15, 0.9]) {
+      await slide(page, share);
+      await settled(page);
+      await isSaid();
+    }
+    await page.reload();
+    await page.waitForFunction(() => document.getElementById("canvas").dataset.result);
+    await settled(page);
+    await isSaid();
   },
 
   async "the session is there again after a reload"({ page, address }) {

@@ -5,17 +5,19 @@ import { Problem, problemText } from "../shared/problem";
 import type { Element, Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
 import { symbolOf } from "../shared/units";
 import { readPlace, writePlace, type Place } from "./address";
-import { deleteSession, getSession, meshPath } from "./api";
+import { deleteSession, getSession, meshPath, representationAt } from "./api";
 import { Colouring } from "./colouring";
-import { find, refill } from "./dom";
+import { counted, find, refill } from "./dom";
+import { exact } from "./exact";
 import { readFile, representationIn } from "./file_reader";
 import { forget, keep, keptOf, type Asked, type Verb } from "./kept";
 import { KeepAlive } from "./keep_alive";
 import { legend } from "./legend";
-import { askedOf, findingList, interruptedNotes, resultNotes, worstList } from "./lists";
+import { askedOf, clearNote, findingList, interruptedNotes, resultNotes, unknownNote, worstList } from "./lists";
 import { MeshWorker } from "./mesh_worker";
 import { showProblem } from "./problems";
 import { ProgressBar, workPlace } from "./progress";
+import { Resting } from "./resting";
 import { qualityTable, spreadTable, stretchHistogram } from "./quality_panel";
 import { ResolutionSlider } from "./resolution";
 import { fileSummary, summaryOf } from "./summary";
@@ -57,6 +59,7 @@ export class Workbench {
   private running = false;
   /** What was cut off by a reload, and is asked for anew when what the address names is there. */
   private again: Asked | undefined;
+  private readonly resting = new Resting((error) => this.heardOfRest(error));
   private readonly colouring = new Colouring(() => this.recolour());
   private source = this.worker("source");
   private result = this.worker("result");
@@ -131,6 +134,7 @@ export class Workbench {
     worker.heard = (more) => this.hear("result", more);
     this.made = representationIn(news);
     this.faces = this.at = news.faces;
+    this.resting.take(this.made);
     this.surround(news.centre, news.half);
     this.viewer.show("result");
     this.recolour();
@@ -160,6 +164,7 @@ export class Workbench {
     this.name = "";
     this.sample = undefined;
     this.alive.end();
+    this.resting.clear();
     delete this.figures.source;
     delete this.figures.result;
     this.load(false);
@@ -284,7 +289,11 @@ export class Workbench {
           this.load(false);
         } else {
           this.draw(news.patch);
-          this.faces = news.patch.visible;
+          const { visible } = news.patch;
+          // What was said of the resolution before is not true of this one.
+          const moved = visible !== this.faces;
+          this.faces = visible;
+          if (moved) this.showNotes();
           this.slider.tell(this.faces);
           if (news.patch.records > 0) find("canvas").dataset["step"] = stepText(news.patch);
         }
@@ -295,7 +304,7 @@ export class Workbench {
         this.showQuality();
         this.showWorst();
         if (slot === "result" && this.made) this.writePlace(this.faces);
-        return;
+        return this.askOfRest();
       case "progress":
         mark("vsplit method ended"); // unless another comes
         this.fresh = true;
@@ -317,6 +326,7 @@ export class Workbench {
         this.progress.hide();
         if (this.made) this.slider.set(this.made.facesMin, this.made.facesMax, this.faces);
         this.changed();
+        this.askOfRest();
         return this.goOn();
     }
   }
@@ -326,10 +336,24 @@ export class Workbench {
     // Other resolutions come without what was measured at the one asked for.
     if (another) this.at = made.faces;
     this.made = another ? made : Object.assign(this.made!, { facesMin: made.facesMin, facesMax: made.facesMax });
+    this.resting.take(made);
     this.slider.set(made.facesMin, made.facesMax, made.faces);
     this.showNotes();
     this.showQuality();
     this.writePlace(this.faces);
+  }
+
+  /** Where the mesh stays at a resolution the server is asked for its figures and bounds; a file's are known of one alone. */
+  private askOfRest(): void {
+    const { session, made } = this;
+    if (!session || !made || this.lost || this.result.busy || this.figures.result?.faces !== this.faces) return;
+    this.resting.ask(this.faces, (faces, signal) => representationAt(session.id, made.id, faces, signal));
+  }
+
+  private heardOfRest(error: unknown): void {
+    if (error !== undefined && problemText(error).field === "session") this.tell(problemText(error));
+    this.showNotes();
+    this.showQuality();
   }
 
   /** Something went wrong. What is held of a session that is gone stays to be looked at. */
@@ -368,10 +392,10 @@ export class Workbench {
     refill(find("worst"), worstList(this.figures[slot]?.worst ?? [], (place, size) => this.fly(slot, place, size)));
   }
 
-  /** To an element of the resolution that the method was asked for: it may not be there at others. */
-  private locate(element: Element): void {
+  /** To an element of a resolution: it may not be there at others. */
+  private locate(element: Element, faces: number): void {
     if (this.running) showProblem({ cause: "BUSY", detail: "a method runs; the mesh stays as it is until its result comes" });
-    else this.order({ kind: "locate", faces: this.at, element });
+    else this.order({ kind: "locate", faces, element });
   }
 
   private fly(slot: Slot, place: Point, size?: number): void {
@@ -380,7 +404,13 @@ export class Workbench {
   }
 
   private showQuality(): void {
-    const columns = { ...this.figures, deviation: this.made && this.at === this.faces ? this.made.quality?.deviationMax : undefined, unit: this.unit };
+    const { source, result } = this.figures;
+    const columns = {
+      source: exact(source, this.session?.source?.quality),
+      result: exact(result, this.made && this.resting.at(this.faces)?.quality),
+      deviation: this.made && this.at === this.faces ? this.made.quality?.deviationMax : undefined,
+      unit: this.unit,
+    };
     find("table").replaceChildren(qualityTable(columns), spreadTable(columns));
     find("histogram").replaceChildren(stretchHistogram(columns));
   }
@@ -394,10 +424,22 @@ export class Workbench {
         this.ask(askedOf(method));
         this.showNotes();
       }),
-      ...(made ? resultNotes(made, this.at, (element) => this.locate(element)) : []),
+      ...(made ? this.notesOf(made) : []),
       ...findingList(session?.source?.findings ?? [], (place) => this.fly("source", place)),
     ];
-    refill(find("notes"), ...(notes.length > 0 ? notes : [session || made ? "Nothing to report." : "–"]));
+    refill(find("notes"), ...(notes.length > 0 ? notes : [made ? `Nothing to report at ${counted(this.at, "face")}.` : session ? "Nothing to report." : "–"]));
+  }
+
+  /** What is amiss at the resolution that is shown, and, where that is another, at the one that the method was asked for. */
+  private notesOf(made: Representation): HTMLElement[] {
+    const { faces, at } = this;
+    const go = (element: Element, where: number): void => this.locate(element, where);
+    const asked = resultNotes(made, at, (element) => go(element, at));
+    if (faces === at || this.running || faces === 0) return asked;
+    const said = this.resting.at(faces);
+    const shown = said ? resultNotes(said, faces, (element) => go(element, faces)) : [unknownNote(faces, this.session !== undefined && !this.lost)];
+    if (said && shown.length === 0) shown.push(clearNote(said, at));
+    return [...shown, ...asked];
   }
 
   /** Of lengths. */
