@@ -259,7 +259,7 @@ const steps = {
     const english = new Intl.NumberFormat("en");
     const isSaid = async () => {
       const { session, result } = await shownOn(page);
-      const answer = await fetch(`${address}/v1/sessions/${session}:setResolution`, { method: "POST", headers: { Accept: "application/json" }, body: JSON.stringify({ representation: "r3", faces: result }) });
+      const answer = await fetch(`${address}/v1/sessions/${session}:setResolution`, { method: "POST", headers: { "Content-Type": "application/json", Accept: "application/json" }, body: JSON.stringify({ representation: "r3", faces: result }) });
       const { violations } = await answer.json();
       assert.ok(violations.length > 0 && result !== asked);
       await page.waitForFunction((words) => document.getElementById("notes").textContent.startsWith(words), `The result, at ${english.format(result)} faces:`);
@@ -429,6 +429,58 @@ const steps = {
       }
       assert.equal(await page.locator("#problems p").count(), 0);
     }
+  },
+
+  async "a mesh that is no manifold is uploaded again with a repair, by a button"({ page }) {
+    const path = join(place, "fan.off");
+    // Three tetrahedra around the edge 0 1.
+    const corners = ["0 0 0", "0 0 1"], faces = [];
+    for (let n = 0; n < 3; ++n) {
+      const at = corners.length;
+      for (const turn of [2.1 * n, 2.1 * n + 1]) corners.push(`${Math.cos(turn)} ${Math.sin(turn)} 0.5`);
+      faces.push([0, at, 1], [1, at, at + 1], [0, 1, at + 1], [0, at + 1, at]);
+    }
+    writeFileSync(path, `OFF\n${corners.length} ${faces.length} 0\n${corners.join("\n")}\n${faces.map((face) => `3 ${face.join(" ")}`).join("\n")}\n`);
+    await upload(page, path);
+    assert.match(await page.textContent("#summary"), /not a manifold, 0 boundary edges; 1\.\d+ × 1\.\d+ × 1 units/);
+    // An edge of six faces is one edge.
+    await page.waitForFunction(() => document.querySelector("#table tbody tr:nth-child(5) td").textContent === "7");
+    await page.fill("#improve-faces", "7");
+    await page.click("#improve button[type=submit]");
+    await page.waitForSelector("#problems p");
+    assert.match(await page.textContent("#problems"), /^NON_MANIFOLD/);
+    const { session } = await shownOn(page);
+    await page.click('#problems button:text("repair safe")');
+    await page.waitForFunction((old) => new URLSearchParams(location.hash.slice(1)).get("session") !== old, session);
+    assert.equal(await page.inputValue("#repair"), "SAFE");
+    assert.match(await page.textContent("#summary"), /3 pieces, closed/);
+    assert.equal(await page.locator('#notes :text("Not a manifold")').count(), 0);
+    // What was typed is for this part still.
+    assert.equal(await page.inputValue("#improve-faces"), "7");
+    await page.selectOption("#repair", "NONE");
+    await page.selectOption("#unit", "MILLIMETRE");
+    await page.click("#apply");
+    await page.waitForFunction(() => /not a manifold.* mm\.$/.test(document.getElementById("summary").textContent));
+    await page.selectOption("#unit", "");
+  },
+
+  async "options that were typed for one part are not there for the next"({ page }) {
+    await page.fill("#improve-tolerance", "0.123");
+    await page.reload();
+    await page.waitForFunction(() => document.getElementById("canvas").dataset.source);
+    assert.equal(await page.inputValue("#improve-tolerance"), "0.123");
+    await upload(page, join(data, "bracket.stl"));
+    for (const name of ["tolerance", "faces"]) assert.equal(await page.inputValue(`#improve-${name}`), "");
+    await run(page, "improve", { subdivisionSize: 8, faces: 6000 });
+    await settled(page);
+    // What was taken for what was left out stands in its field, and the bound beside what was measured.
+    const placeholder = await page.getAttribute("#improve-maxDeviation", "placeholder");
+    assert.match(placeholder, /^used \d/);
+    assert.ok((await page.textContent("#table tbody tr:last-child td:last-child")).includes(`bound ${placeholder.slice(5)}`));
+    const { result } = await shownOn(page);
+    await slide(page, 0.2);
+    await settled(page);
+    assert.match(await page.textContent("#table tbody tr:last-child td:last-child"), new RegExp(`measured at ${new Intl.NumberFormat("en").format(result)} faces`));
   },
 
   async "open boundaries: nothing that closes them is drawn"({ page, address }) {

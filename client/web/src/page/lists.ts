@@ -33,6 +33,12 @@ function placeButtons(names: string[], go: (n: number) => void): HTMLElement {
   return places;
 }
 
+/** A mesh that no method takes as it is, and what can be done. */
+export function brokenNote(remedies: Node[]): HTMLElement {
+  const words = element("p", {}, "Edges or vertices of more than one sheet: methods take no such mesh. Repair cuts the sheets apart (safe), and closes cracks and small holes too (full); it acts when the mesh is uploaded.");
+  return element("div", { class: "note bad" }, element("strong", {}, "Not a manifold"), words, element("span", { class: "links" }, ...remedies));
+}
+
 /** What was found, with its places. */
 export function findingList(findings: Finding[], fly: Fly): HTMLElement[] {
   return findings.map((finding) => {

@@ -14,6 +14,7 @@ import { startToken } from "./token";
 import { Viewer, type View } from "./viewer";
 import { Workbench } from "./workbench";
 
+const verbs = ["improve", "control"] as const;
 const viewer = new Viewer(find("canvas"));
 const forms: MethodForm[] = [];
 const fields = new KeptFields(find("steps"));
@@ -26,7 +27,9 @@ const bench: Workbench = new Workbench(
   },
   (session, unit, name) => {
     const sample = samples.find((one) => one.name === name);
+    const another = fields.session !== "" && fields.session !== session && !incoming.repeats;
     for (const form of forms) {
+      if (another) form.begin();
       form.suggest(sample?.options ?? {});
       form.unit = unit;
     }
@@ -35,10 +38,15 @@ const bench: Workbench = new Workbench(
   },
 );
 const incoming: Incoming = new Incoming(bench, () => update());
+bench.remedies = () => incoming.remedies();
 
 /** What can be done now. */
 function update(): void {
-  for (const form of forms) form.enabled = bench.ready && !incoming.busy;
+  forms.forEach((form, n) => {
+    form.enabled = bench.ready && !incoming.busy;
+    form.used(bench.used(verbs[n]!));
+  });
+  find("apply").setAttribute("aria-disabled", String(!incoming.canRepeat));
   const link = find<HTMLAnchorElement>("download");
   const path = bench.file(find<HTMLSelectElement>("format").value);
   link.setAttribute("aria-disabled", String(path === undefined));
@@ -74,7 +82,7 @@ async function startForms(): Promise<void> {
   const response = await fetch("openapi.json");
   if (!response.ok) throw await problemOf(response);
   const contract = (await response.json()) as Contract;
-  for (const verb of ["improve", "control"] as const) {
+  for (const verb of verbs) {
     const title = verb === "improve" ? "Improve" : "Control";
     const form: MethodForm = new MethodForm(find<HTMLFormElement>(verb), title, methodOptions(contract, `${title}Options`), (options) => {
       hideProblem();

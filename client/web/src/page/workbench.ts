@@ -1,4 +1,4 @@
-import { fromJson, type JsonValue } from "@bufbuild/protobuf";
+import { fromJson, toJson, type JsonObject, type JsonValue } from "@bufbuild/protobuf";
 import { RepresentationSchema, type Representation, type Session } from "../gen/vsplit/v1/meshing_pb";
 import type { ColourBy } from "../shared/colours";
 import { Problem, problemText } from "../shared/problem";
@@ -13,14 +13,14 @@ import { readFile, representationIn } from "./file_reader";
 import { forget, keep, keptOf, type Asked, type Verb } from "./kept";
 import { KeepAlive } from "./keep_alive";
 import { legend } from "./legend";
-import { askedOf, clearNote, findingList, interruptedNotes, resultNotes, unknownNote, worstList } from "./lists";
+import { askedOf, brokenNote, clearNote, findingList, interruptedNotes, resultNotes, unknownNote, worstList } from "./lists";
 import { MeshWorker } from "./mesh_worker";
 import { showProblem } from "./problems";
 import { ProgressBar, workPlace } from "./progress";
-import { Resting } from "./resting";
-import { qualityTable, spreadTable, stretchHistogram } from "./quality_panel";
+import { qualityTable, spreadTable, stretchHistogram, type Deviation } from "./quality_panel";
 import { ResolutionSlider } from "./resolution";
-import { fileSummary, summaryOf } from "./summary";
+import { Resting } from "./resting";
+import { fileSummary, isManifold, summaryOf } from "./summary";
 import type { Slot, View, Viewer } from "./viewer";
 
 const nothingOpen = "No mesh yet";
@@ -66,6 +66,9 @@ export class Workbench {
   private readonly progress = new ProgressBar(workPlace(), () => runButton(this.verb), () => this.result.tell({ kind: "cancel" }));
   private readonly slider = new ResolutionSlider((faces) => this.order({ kind: "faces", faces }));
 
+  /** What can be done where a mesh is no manifold: buttons, or words. */
+  remedies: () => Node[] = () => [];
+
   /** `changed`: when methods can be run or not. `opened`: when a session is, with its unit of length and the name of the sample that it has. */
   constructor(
     private readonly viewer: Viewer,
@@ -76,6 +79,18 @@ export class Workbench {
   /** Whether a method can be run. */
   get ready(): boolean {
     return this.session !== undefined && !this.lost && !this.result.busy;
+  }
+
+  /** The open session's id. */
+  get id(): string | undefined {
+    return this.session?.id;
+  }
+
+  /** The options that the newest result of a method was made with, defaults filled in. */
+  used(verb: Verb): JsonObject | undefined {
+    const made = [this.made, ...(this.session?.representations ?? []).slice().reverse()];
+    const all = made.map((one) => (one ? (toJson(RepresentationSchema, one) as JsonObject)[`${verb}Options`] : undefined));
+    return all.find((options) => options !== undefined) as JsonObject | undefined;
   }
 
   /** Whether it is what an address names; that need not say everything. */
@@ -358,7 +373,7 @@ export class Workbench {
 
   /** Something went wrong. What is held of a session that is gone stays to be looked at. */
   private tell(problem: ProblemText): void {
-    showProblem(problem);
+    showProblem(problem, ...(problem.cause === "NON_MANIFOLD" ? this.remedies() : []));
     if (problem.cause === "NOT_FOUND" && problem.field === "session" && this.session) {
       this.lost = true;
       this.ended();
@@ -408,11 +423,19 @@ export class Workbench {
     const columns = {
       source: exact(source, this.session?.source?.quality),
       result: exact(result, this.made && this.resting.at(this.faces)?.quality),
-      deviation: this.made && this.at === this.faces ? this.made.quality?.deviationMax : undefined,
+      deviation: this.deviation(),
       unit: this.unit,
     };
     find("table").replaceChildren(qualityTable(columns), spreadTable(columns));
     find("histogram").replaceChildren(stretchHistogram(columns));
+  }
+
+  /** Measured at the resolution that the method was asked for alone. */
+  private deviation(): Deviation | undefined {
+    const { made, at, faces } = this;
+    const measured = made?.quality?.deviationMax;
+    if (!made || measured === undefined) return undefined;
+    return { measured, bound: made.options.value?.maxDeviation, at: at === faces ? undefined : at };
   }
 
   private showNotes(): void {
@@ -425,6 +448,7 @@ export class Workbench {
         this.showNotes();
       }),
       ...(made ? this.notesOf(made) : []),
+      ...(session?.source && !isManifold(session.source) ? [brokenNote(this.remedies())] : []),
       ...findingList(session?.source?.findings ?? [], (place) => this.fly("source", place)),
     ];
     refill(find("notes"), ...(notes.length > 0 ? notes : [made ? `Nothing to report at ${counted(this.at, "face")}.` : session ? "Nothing to report." : "–"]));
