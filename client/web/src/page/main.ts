@@ -7,6 +7,7 @@ import { MethodForm } from "./form";
 import { Incoming } from "./incoming";
 import { KeptFields } from "./kept_fields";
 import { hideProblem, showProblem, startProblems } from "./problems";
+import { glossary } from "./quality_panel";
 import { samples } from "./samples";
 import { formatLabel, formatsOf, methodOptions, type Contract } from "./schema";
 import { startTheme } from "./theme";
@@ -59,11 +60,13 @@ function startTools(): void {
   find("colour").addEventListener("change", (event) => bench.colour((event.target as HTMLSelectElement).value as ColourBy));
   find("edges").addEventListener("change", (event) => viewer.showEdges((event.target as HTMLInputElement).checked));
   find("fit").addEventListener("click", () => viewer.fit());
-  const axis = find<HTMLSelectElement>("cut-axis"), share = find<HTMLInputElement>("cut");
+  const axis = find<HTMLSelectElement>("cut-axis"), share = find<HTMLInputElement>("cut"), place = find("cut-place"), flip = find("cut-flip");
   const cut = (): void => {
     if (axis.value === "") passFocus(share, axis);
     share.disabled = axis.value === "";
-    viewer.cut(axis.value === "" ? undefined : Number(axis.value), Number(share.value));
+    for (const one of [share, place, flip]) one.hidden = axis.value === "";
+    viewer.cut(axis.value === "" ? undefined : Number(axis.value), Number(share.value), flip.getAttribute("aria-pressed") === "true");
+    if (axis.value !== "") place.textContent = `${"xyz"[Number(axis.value)]} = ${bench.coordinate(Number(axis.value), Number(share.value))}`;
   };
   viewer.shown = (view) => {
     find<HTMLSelectElement>("view").value = view;
@@ -75,7 +78,12 @@ function startTools(): void {
   };
   axis.addEventListener("change", cut);
   share.addEventListener("input", cut);
-  viewer.cut(undefined, 1);
+  flip.addEventListener("click", () => {
+    flip.setAttribute("aria-pressed", String(flip.getAttribute("aria-pressed") !== "true"));
+    cut();
+  });
+  cut();
+  find("glossary").append(glossary());
 }
 
 async function startForms(): Promise<void> {
@@ -99,7 +107,7 @@ async function startForms(): Promise<void> {
   find("download").addEventListener("click", (event) => {
     const path = bench.file(format.value);
     event.preventDefault();
-    if (path) fetchFile(path).catch((error: unknown) => showProblem(problemText(error)));
+    if (path) fetchFile(path, bench.fileStem).catch((error: unknown) => showProblem(problemText(error)));
   });
 }
 

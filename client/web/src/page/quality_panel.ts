@@ -2,6 +2,7 @@ import type { Figures, Spread } from "../shared/protocol";
 import { Ramp } from "../shared/colours";
 import { withUnit } from "../shared/units";
 import { count, counted, element, figure } from "./dom";
+import { meanings } from "./legend";
 
 /** Distance of the result to the source. */
 export interface Deviation {
@@ -28,6 +29,12 @@ const rows: [string, (f: Figures, unit: string) => string][] = [
   ["Valence, max", (f) => count(f.valenceMax)],
   ["Size, max", (f, unit) => withUnit(figure(f.sizeMax), unit)],
 ];
+
+/** What the figures mean, folded away. */
+export function glossary(): HTMLElement {
+  const deviation = "Deviation: largest distance of the result to the input and of the input to the result.";
+  return element("details", {}, element("summary", {}, "What these are"), ...[...Object.values(meanings), deviation].map((words) => element("p", { class: "hint" }, words)));
+}
 
 export function qualityTable({ source, result, deviation, unit }: Columns): HTMLElement {
   const cell = (figures: Figures | undefined, text: (f: Figures, unit: string) => string): HTMLElement =>

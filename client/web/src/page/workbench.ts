@@ -3,11 +3,11 @@ import { RepresentationSchema, type Representation, type Session } from "../gen/
 import type { ColourBy } from "../shared/colours";
 import { Problem, problemText } from "../shared/problem";
 import type { Element, Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
-import { symbolOf } from "../shared/units";
+import { symbolOf, withUnit } from "../shared/units";
 import { readPlace, writePlace, type Place } from "./address";
 import { deleteSession, getSession, meshPath, representationAt } from "./api";
 import { Colouring } from "./colouring";
-import { counted, find, refill } from "./dom";
+import { counted, figure, find, refill } from "./dom";
 import { exact } from "./exact";
 import { readFile, representationIn } from "./file_reader";
 import { forget, keep, keptOf, type Asked, type Verb } from "./kept";
@@ -53,6 +53,7 @@ export class Workbench {
   /** The resolution that the method was asked for: what it said is of that. */
   private at = 0;
   private centre: Point = [0, 0, 0];
+  private half: Point = [0, 0, 0];
   private readonly figures: Partial<Record<Slot, Figures>> = {};
   private fresh = false;
   private verb: Verb = "improve";
@@ -229,6 +230,7 @@ export class Workbench {
   /** The box around what is open: its middle, and half its edges. */
   private surround(centre: Point, half: Point): void {
     this.centre = centre;
+    this.half = half;
     this.viewer.frame(half);
   }
 
@@ -269,6 +271,17 @@ export class Workbench {
 
   show(view: View): void {
     this.colouring.show(view);
+  }
+
+  /** Where a cut is along an axis, at a share of the part, with its unit. */
+  coordinate(axis: number, share: number): string {
+    return withUnit(figure(this.centre[axis]! + (2 * share - 1) * this.half[axis]!), this.unit);
+  }
+
+  /** Name of a file of what is shown, without an ending: the part's and, of a result, its faces. */
+  get fileStem(): string {
+    const part = this.name.replace(/\.\w+$/, "") || "mesh";
+    return this.made ? `${part}-${this.faces}` : part;
   }
 
   /** Where the mesh that is shown can be had as a file. */
