@@ -51,7 +51,7 @@ export class MethodForm {
   used(options: JsonObject | undefined): void {
     for (const { option, field } of this.fields) {
       const value = option.path.reduce<JsonValue | undefined>((of, name) => (of as JsonObject | undefined)?.[name], options);
-      const words = typeof value === "number" ? `used ${figure(value)}` : typeof value === "string" ? `default: ${choiceWords(value)}` : undefined;
+      const words = typeof value === "number" ? `used ${option.kind === "whole" ? value : figure(value)}` : typeof value === "string" ? `default: ${choiceWords(value)}` : undefined;
       if (option.kind === "choice") (field as HTMLSelectElement).options[0]!.text = words ?? "default";
       else if (option.kind !== "flag") (field as HTMLInputElement).placeholder = words ?? this.standards.get(field)!;
     }

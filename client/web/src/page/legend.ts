@@ -20,7 +20,7 @@ export function legend(by: ColourBy, range: Range, unit: string): HTMLElement {
     part.style.background = ramp.cssAt((n + 0.5) / steps);
     bar.append(part);
   }
-  const words = { stretch: "stretch: 1 equilateral, 0 degenerate; red under 0.2", size: `longest edge, ${unit || "model units"}; logarithmic`, valence: "edges at a vertex" }[by];
+  const words = { stretch: "stretch, 1 is best; red under 0.2", size: `longest edge, ${unit || "model units"}; log scale`, valence: "edges at a vertex" }[by];
   // Stretch has these bounds, and sizes reach from the one to the other; a valence may be beyond.
   const [from, to] = by === "valence" ? [`≤ ${low}`, `≥ ${high}`] : [figure(low, 3), figure(high, 3)];
   return element("div", {}, element("span", {}, from), bar, element("span", {}, to), element("span", { class: "hint", title: meanings[by] }, words));
