@@ -146,7 +146,10 @@ const steps = {
     for (const share of [0.2, 0.05, 0, 0.4, 0.8, 1, 0.5]) {
       await slide(page, share);
       await settled(page);
-      await agrees(page, address);
+      const { result } = await agrees(page, address);
+      const ends = await page.$$eval("#faces-least, #faces-most", (both) => both.map((one) => Number(one.textContent.replace(/,/g, ""))));
+      const note = await page.textContent("#resolution-note");
+      assert.match(note, result === ends[0] ? /^The coarsest/ : result === ends[1] ? /^The finest/ : /^$/, `${result} of ${ends}`);
     }
   },
 
@@ -168,6 +171,19 @@ const steps = {
     }
     await page.selectOption("#cut-axis", "1");
     assert.ok(await page.isEnabled("#cut"));
+    // The middle of the box, as its edges in the summary have it.
+    const at = async () => Number(/^y = (-?[\d.e-]+)/.exec(await page.textContent("#cut-place"))[1]);
+    const tall = Number(/× ([\d.]+) ×/.exec(await page.textContent("#summary"))[1]);
+    const middle = await at();
+    await page.fill("#cut", "1");
+    assert.ok(Math.abs(await at() - middle - tall / 2) < tall / 500, `${await at()} is the end of ${tall} around ${middle}`);
+    await page.fill("#cut", "0.5");
+    await page.waitForTimeout(300);
+    const half = await page.locator("#canvas canvas").screenshot();
+    await page.click("#cut-flip");
+    await page.waitForTimeout(300);
+    assert.notDeepEqual(await page.locator("#canvas canvas").screenshot(), half);
+    await page.click("#cut-flip");
     await page.selectOption("#cut-axis", "");
     const still = await page.locator("#canvas canvas").screenshot();
     await page.click("#worst li:first-child button");
@@ -203,7 +219,7 @@ const steps = {
     await page.selectOption("#format", "OBJ");
     const [download] = await Promise.all([page.waitForEvent("download"), page.click("#download")]);
     const path = join(place, download.suggestedFilename());
-    assert.match(path, /\.obj$/);
+    assert.equal(download.suggestedFilename(), `bracket-${shown.result}.obj`);
     await download.saveAs(path);
     const told = execFileSync(vsplit, ["info", path], { encoding: "utf8" });
     assert.match(told.replace(/,/g, ""), new RegExp(`faces\\s+${shown.result}\\b`));
