@@ -20,8 +20,14 @@ test("least, mean and largest are those of the faces and vertices", () => {
   const near = (spread: readonly number[], expected: number[]): void => expected.forEach((value, n) => expect(spread[n]).toBeCloseTo(value, 12));
   near(spread.stretch, [right, (2 + right) / 3, 1]);
   near(spread.size, [2, (4 + hypotenuse) / 3, hypotenuse]);
-  // Faces at the vertices 0 to 4; no ghost tells of the boundary here.
-  near(spread.valence, [1, 9 / 5, 3]);
+  // Edges at the vertices 0 to 4: 3, 4, 3, 2, 2... of seven edges, each counted at both its ends.
+  near(spread.valence, [2, 14 / 5, 4]);
+});
+
+test("an edge of many faces is one edge, as it is to the server", () => {
+  // Three faces share the edge 0 1: at its ends it and one edge a face.
+  const fan = { vertexCount: 5, faceCount: 3, ghosts: 0, positions: Float64Array.from([0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, -1, -1, 0]), corners: Uint32Array.from([0, 1, 2, 0, 1, 3, 0, 1, 4]) };
+  expect(measure(fan).valenceMax).toBe(4);
 });
 
 test("a mesh without faces has no figures, and no infinite ones", () => {

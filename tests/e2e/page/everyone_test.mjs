@@ -192,7 +192,7 @@ const steps = {
     await page.selectOption("#unit", "INCH");
     await upload(page, join(data, "bracket.stl"));
     assert.deepEqual(await units(), ["in", "°"]);
-    assert.match(await page.textContent("#summary"), /lengths in in\./);
+    assert.match(await page.textContent("#summary"), / × [\d.]+ in\./);
     await page.selectOption("#unit", "");
     await takeSample(page, "scan.ply");
     assert.deepEqual(await units(), ["units", "°"]);

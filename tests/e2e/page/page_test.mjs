@@ -146,7 +146,10 @@ const steps = {
     for (const share of [0.2, 0.05, 0, 0.4, 0.8, 1, 0.5]) {
       await slide(page, share);
       await settled(page);
-      await agrees(page, address);
+      const { result } = await agrees(page, address);
+      const ends = await page.$$eval("#faces-least, #faces-most", (both) => both.map((one) => Number(one.textContent.replace(/,/g, ""))));
+      const note = await page.textContent("#resolution-note");
+      assert.match(note, result === ends[0] ? /^The coarsest/ : result === ends[1] ? /^The finest/ : /^$/, `${result} of ${ends}`);
     }
   },
 
@@ -168,6 +171,19 @@ const steps = {
     }
     await page.selectOption("#cut-axis", "1");
     assert.ok(await page.isEnabled("#cut"));
+    // The middle of the box, as its edges in the summary have it.
+    const at = async () => Number(/^y = (-?[\d.e-]+)/.exec(await page.textContent("#cut-place"))[1]);
+    const tall = Number(/× ([\d.]+) ×/.exec(await page.textContent("#summary"))[1]);
+    const middle = await at();
+    await page.fill("#cut", "1");
+    assert.ok(Math.abs(await at() - middle - tall / 2) < tall / 500, `${await at()} is the end of ${tall} around ${middle}`);
+    await page.fill("#cut", "0.5");
+    await page.waitForTimeout(300);
+    const half = await page.locator("#canvas canvas").screenshot();
+    await page.click("#cut-flip");
+    await page.waitForTimeout(300);
+    assert.notDeepEqual(await page.locator("#canvas canvas").screenshot(), half);
+    await page.click("#cut-flip");
     await page.selectOption("#cut-axis", "");
     const still = await page.locator("#canvas canvas").screenshot();
     await page.click("#worst li:first-child button");
@@ -203,7 +219,7 @@ const steps = {
     await page.selectOption("#format", "OBJ");
     const [download] = await Promise.all([page.waitForEvent("download"), page.click("#download")]);
     const path = join(place, download.suggestedFilename());
-    assert.match(path, /\.obj$/);
+    assert.equal(download.suggestedFilename(), `bracket-${shown.result}.obj`);
     await download.saveAs(path);
     const told = execFileSync(vsplit, ["info", path], { encoding: "utf8" });
     assert.match(told.replace(/,/g, ""), new RegExp(`faces\\s+${shown.result}\\b`));
@@ -228,16 +244,18 @@ const steps = {
     const near = (place, { x = 0, y = 0, z = 0 }) => place.every((v, axis) => Math.abs(v - [x, y, z][axis]) < 1e-4);
     const title = (cause) => cause.toLowerCase().replace(/_/g, " ");
     const notes = [["min_stretch not met", violations.find(({ bound }) => bound === "min_stretch").elements], [title(slivers[0].cause), slivers[0].elements]];
+    const resting = () => page.waitForFunction(() => !/not known yet/.test(document.getElementById("notes").textContent));
     const { worstFaces } = await (await fetch(`${address}/v1/sessions/${shown.session}/quality?representation=r3&faces=${faces}&worst=1000`)).json();
     const go = async (note, n) => {
       await page.evaluate(() => delete document.getElementById("canvas").dataset.flown);
-      await page.click(`#notes .note:has(strong:text-is("${note}")) button:nth-child(${n + 1})`);
+      await page.locator(`#notes .note:has(strong:text-is("${note}"))`).last().locator("button").nth(n).click();
       await page.waitForSelector("#canvas[data-flown]");
     };
     for (const [note, elements] of notes) {
       await slide(page, 0.3);
       await settled(page);
       assert.notEqual((await shownOn(page)).result, faces);
+      await resting();
       const n = Math.min(3, elements.length - 1);
       const { centroid } = worstFaces.find((one) => (one.face ?? 0) === elements[n]);
       await go(note, n);
@@ -250,6 +268,31 @@ const steps = {
     await go("max_valence not met", 0);
     assert.ok(near(await flown(), { x, y, z }), `${await flown()} where the file has ${[x, y, z]}`);
     await page.fill("#control-minStretch", "");
+  },
+
+  async "broken bounds are those of the resolution that is shown, also after a reload"({ page, address }) {
+    const { result: asked } = await shownOn(page);
+    const english = new Intl.NumberFormat("en");
+    const isSaid = async () => {
+      const { session, result } = await shownOn(page);
+      const answer = await fetch(`${address}/v1/sessions/${session}:setResolution`, { method: "POST", headers: { "Content-Type": "application/json", Accept: "application/json" }, body: JSON.stringify({ representation: "r3", faces: result }) });
+      const { violations } = await answer.json();
+      assert.ok(violations.length > 0 && result !== asked);
+      await page.waitForFunction((words) => document.getElementById("notes").textContent.startsWith(words), `The result, at ${english.format(result)} faces:`);
+      for (const [n, { bound, count }] of violations.entries()) {
+        const note = await page.locator("#notes .note.bad").nth(n).textContent();
+        assert.ok(note.startsWith(`${bound} not met`) && note.includes(` ${english.format(count)} ${bound === "max_valence" ? "vert" : "face"}`), note);
+      }
+    };
+    for (const share of [0.15, 0.9]) {
+      await slide(page, share);
+      await settled(page);
+      await isSaid();
+    }
+    await page.reload();
+    await page.waitForFunction(() => document.getElementById("canvas").dataset.result);
+    await settled(page);
+    await isSaid();
   },
 
   async "the session is there again after a reload"({ page, address }) {
@@ -402,6 +445,58 @@ const steps = {
       }
       assert.equal(await page.locator("#problems p").count(), 0);
     }
+  },
+
+  async "a mesh that is no manifold is uploaded again with a repair, by a button"({ page }) {
+    const path = join(place, "fan.off");
+    // Three tetrahedra around the edge 0 1.
+    const corners = ["0 0 0", "0 0 1"], faces = [];
+    for (let n = 0; n < 3; ++n) {
+      const at = corners.length;
+      for (const turn of [2.1 * n, 2.1 * n + 1]) corners.push(`${Math.cos(turn)} ${Math.sin(turn)} 0.5`);
+      faces.push([0, at, 1], [1, at, at + 1], [0, 1, at + 1], [0, at + 1, at]);
+    }
+    writeFileSync(path, `OFF\n${corners.length} ${faces.length} 0\n${corners.join("\n")}\n${faces.map((face) => `3 ${face.join(" ")}`).join("\n")}\n`);
+    await upload(page, path);
+    assert.match(await page.textContent("#summary"), /not a manifold, 0 boundary edges; 1\.\d+ × 1\.\d+ × 1 units/);
+    // An edge of six faces is one edge.
+    await page.waitForFunction(() => document.querySelector("#table tbody tr:nth-child(5) td").textContent === "7");
+    await page.fill("#improve-faces", "7");
+    await page.click("#improve button[type=submit]");
+    await page.waitForSelector("#problems p");
+    assert.match(await page.textContent("#problems"), /^NON_MANIFOLD/);
+    const { session } = await shownOn(page);
+    await page.click('#problems button:text("repair safe")');
+    await page.waitForFunction((old) => new URLSearchParams(location.hash.slice(1)).get("session") !== old, session);
+    assert.equal(await page.inputValue("#repair"), "SAFE");
+    assert.match(await page.textContent("#summary"), /3 pieces, closed/);
+    assert.equal(await page.locator('#notes :text("Not a manifold")').count(), 0);
+    // What was typed is for this part still.
+    assert.equal(await page.inputValue("#improve-faces"), "7");
+    await page.selectOption("#repair", "NONE");
+    await page.selectOption("#unit", "MILLIMETRE");
+    await page.click("#apply");
+    await page.waitForFunction(() => /not a manifold.* mm\.$/.test(document.getElementById("summary").textContent));
+    await page.selectOption("#unit", "");
+  },
+
+  async "options that were typed for one part are not there for the next"({ page }) {
+    await page.fill("#improve-tolerance", "0.123");
+    await page.reload();
+    await page.waitForFunction(() => document.getElementById("canvas").dataset.source);
+    assert.equal(await page.inputValue("#improve-tolerance"), "0.123");
+    await upload(page, join(data, "bracket.stl"));
+    for (const name of ["tolerance", "faces"]) assert.equal(await page.inputValue(`#improve-${name}`), "");
+    await run(page, "improve", { subdivisionSize: 8, faces: 6000 });
+    await settled(page);
+    // What was taken for what was left out stands in its field, and the bound beside what was measured.
+    const placeholder = await page.getAttribute("#improve-maxDeviation", "placeholder");
+    assert.match(placeholder, /^used \d/);
+    assert.ok((await page.textContent("#table tbody tr:last-child td:last-child")).includes(`bound ${placeholder.slice(5)}`));
+    const { result } = await shownOn(page);
+    await slide(page, 0.2);
+    await settled(page);
+    assert.match(await page.textContent("#table tbody tr:last-child td:last-child"), new RegExp(`measured at ${new Intl.NumberFormat("en").format(result)} faces`));
   },
 
   async "open boundaries: nothing that closes them is drawn"({ page, address }) {

@@ -1,5 +1,5 @@
 import { fromJson, type DescMessage, type JsonValue, type MessageShape } from "@bufbuild/protobuf";
-import { SessionSchema, type Session } from "../gen/vsplit/v1/meshing_pb";
+import { RepresentationSchema, SessionSchema, type Representation, type Session } from "../gen/vsplit/v1/meshing_pb";
 import { fields } from "../shared/access";
 import { problemFrom, problemOf, unreachable } from "../shared/problem";
 
@@ -38,6 +38,15 @@ export function upload(file: Blob, options: UploadOptions, sent: (share: number)
     signal.addEventListener("abort", () => request.abort());
     request.send(file);
   });
+}
+
+/** A representation with the figures and bounds of one of its resolutions. */
+export async function representationAt(session: string, representation: string, faces: number, signal: AbortSignal): Promise<Representation> {
+  const headers = fields({ "Content-Type": "application/json", Accept: "application/json" });
+  const body = JSON.stringify({ representation, faces });
+  const response = await fetch(`/v1/sessions/${encodeURIComponent(session)}:setResolution`, { method: "POST", headers, body, signal });
+  if (!response.ok) throw await problemOf(response);
+  return read(RepresentationSchema, (await response.json()) as JsonValue);
 }
 
 /** Puts off when the session expires. */

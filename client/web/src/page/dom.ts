@@ -34,4 +34,6 @@ export function refill(place: HTMLElement, ...children: (Node | string)[]): void
 
 const whole = new Intl.NumberFormat("en");
 export const count = (value: number): string => whole.format(value);
+/** "1 face", "2 faces". */
+export const counted = (value: number, one: string, many = `${one}s`): string => `${count(value)} ${value === 1 ? one : many}`;
 export const figure = (value: number, digits = 4): string => (Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : "none");

@@ -1,4 +1,5 @@
-import { element } from "./dom";
+import type { JsonObject, JsonValue } from "@bufbuild/protobuf";
+import { element, figure } from "./dom";
 import { check, clear, pointAt } from "./number_field";
 import { labelOf, modelUnits, type Option } from "./schema";
 
@@ -10,6 +11,7 @@ type Field = HTMLInputElement | HTMLSelectElement;
 /** The form of a method, made from the contract. */
 export class MethodForm {
   private readonly fields: { option: Option; field: Field }[] = [];
+  private readonly standards = new Map<Field, string>();
   private readonly run: HTMLButtonElement;
   /** Where the unit of a length stands. */
   private readonly lengths: HTMLElement[] = [];
@@ -37,6 +39,22 @@ export class MethodForm {
       if (options[name] !== undefined) field.value = options[name];
     }
     this.suggested = options;
+  }
+
+  /** Another part is open: what was typed for the one before is not for it. */
+  begin(): void {
+    this.form.reset();
+    this.blame(undefined);
+  }
+
+  /** Says at fields that are left to their defaults what the last run took for them; undefined: there was none. */
+  used(options: JsonObject | undefined): void {
+    for (const { option, field } of this.fields) {
+      const value = option.path.reduce<JsonValue | undefined>((of, name) => (of as JsonObject | undefined)?.[name], options);
+      const words = typeof value === "number" ? `used ${option.kind === "whole" ? value : figure(value)}` : typeof value === "string" ? `default: ${choiceWords(value)}` : undefined;
+      if (option.kind === "choice") (field as HTMLSelectElement).options[0]!.text = words ?? "default";
+      else if (option.kind !== "flag") (field as HTMLInputElement).placeholder = words ?? this.standards.get(field)!;
+    }
   }
 
   /** Everything as it was at first, and what suits the mesh. */
@@ -96,12 +114,14 @@ export class MethodForm {
       const field = element("select", { id, "aria-describedby": help });
       for (const choice of option.choices) {
         const none = choice.endsWith("UNSPECIFIED");
-        field.append(element("option", { value: none ? "" : choice }, none ? "default" : choice.toLowerCase().replace(/_/g, " ")));
+        field.append(element("option", { value: none ? "" : choice }, none ? "default" : choiceWords(choice)));
       }
       return field;
     }
     const standard = option.standard.length > 26 ? "default" : option.standard;
-    return element("input", { id, type: "number", step: option.kind === "whole" ? 1 : "any", placeholder: standard || "default", title: option.standard, inputmode: "decimal", "aria-describedby": help });
+    const field = element("input", { id, type: "number", step: option.kind === "whole" ? 1 : "any", placeholder: standard || "default", title: option.standard, inputmode: "decimal", "aria-describedby": help });
+    this.standards.set(field, field.placeholder);
+    return field;
   }
 
   /** Points at the first field that cannot be sent. */
@@ -125,6 +145,8 @@ export class MethodForm {
     return options;
   }
 }
+
+const choiceWords = (choice: string): string => choice.toLowerCase().replace(/_/g, " ");
 
 function valueOf(option: Option, field: Field): unknown {
   if (option.kind === "flag") return (field as HTMLInputElement).checked || undefined;

@@ -34,15 +34,58 @@ async function fetchSample(name: string, signal: AbortSignal): Promise<Blob> {
   return response.blob();
 }
 
+/** A mesh that was uploaded here, and the session that it became. */
+interface Sent {
+  session: string;
+  file: Blob;
+  name: string;
+  sample: string | undefined;
+  repair: string;
+}
+
+const repairs = ["NONE", "SAFE", "FULL"];
+
 /** Brings meshes in: files that are chosen or dropped, and samples. One that is on its way gives way to the next. */
 export class Incoming {
   private coming: AbortController | undefined;
+  /** What was sent last, to be sent again with other options; a reload forgets it. */
+  private sent: Sent | undefined;
+  /** Whether what comes is what is open already, with other options. */
+  repeats = false;
 
   /** `changed`: when something is on its way, or no more. */
   constructor(private readonly bench: Workbench, private readonly changed: () => void) {
     this.startFile();
     this.startDrop();
     this.startSamples();
+    find("apply").addEventListener("click", () => this.again());
+  }
+
+  /** Whether what is open can be sent again. */
+  get canRepeat(): boolean {
+    return this.sent !== undefined && this.sent.session === this.bench.id && !this.busy;
+  }
+
+  /** Sends what is open again, with the options as they are now. */
+  again(): void {
+    const { sent } = this;
+    if (!sent || !this.canRepeat) return;
+    this.repeats = true;
+    const send = (signal: AbortSignal, show: Show): Promise<void> => this.send(sent.file, sent.name, sent.sample, signal, show);
+    void this.bring(sent.name, send).finally(() => (this.repeats = false));
+  }
+
+  /** Buttons that send what is open again with a repair that it has not had; words where it is not here any more. */
+  remedies(): Node[] {
+    const { sent } = this;
+    if (sent?.session !== this.bench.id) return [element("span", {}, "Set Repair to safe or full, then choose the file again.")];
+    return repairs.slice(repairs.indexOf(sent!.repair) + 1).map((repair) => {
+      const click = (): void => {
+        find<HTMLSelectElement>("repair").value = repair;
+        this.again();
+      };
+      return element("button", { type: "button", class: "quiet", click }, `Upload again with repair ${repair.toLowerCase()}`);
+    });
   }
 
   get busy(): boolean {
@@ -72,7 +115,9 @@ export class Incoming {
     const weld = find<HTMLInputElement>("weld");
     const options = { repair: find<HTMLSelectElement>("repair").value, weld: Number(weld.value), unit: find<HTMLSelectElement>("unit").value };
     const session = await upload(file, options, (share) => show(share < 1 ? "upload" : "inspect", share), signal);
-    if (!signal.aborted) this.bench.replace(session, name, sample);
+    if (signal.aborted) return;
+    this.sent = { session: session.id, file, name, sample, repair: options.repair };
+    this.bench.replace(session, name, sample);
   }
 
   private async bring(name: string, work: (signal: AbortSignal, show: Show) => Promise<void>): Promise<void> {
@@ -91,7 +136,7 @@ export class Incoming {
     } catch (error) {
       if (this.coming !== own) return;
       const problem = problemText(error);
-      showProblem(aboutFile(name, problem));
+      showProblem(problem.cause === "CANCELLED" ? problem : aboutFile(name, problem));
       if (problem.field === "weld") pointAt(weld);
     } finally {
       progress.hide();

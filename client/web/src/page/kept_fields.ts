@@ -6,7 +6,8 @@ const isTick = (field: Field): field is HTMLInputElement => field.type === "chec
 
 /** What is typed and chosen in the fields of a place comes back after a reload, session by session. */
 export class KeptFields {
-  private session = "";
+  /** Whose fields these are; "" before there is a session. */
+  session = "";
 
   constructor(private readonly place: HTMLElement) {
     for (const kind of ["input", "change"]) place.addEventListener(kind, () => this.keep());

@@ -7,6 +7,7 @@ import { MethodForm } from "./form";
 import { Incoming } from "./incoming";
 import { KeptFields } from "./kept_fields";
 import { hideProblem, showProblem, startProblems } from "./problems";
+import { glossary } from "./quality_panel";
 import { samples } from "./samples";
 import { formatLabel, formatsOf, methodOptions, type Contract } from "./schema";
 import { startTheme } from "./theme";
@@ -14,6 +15,7 @@ import { startToken } from "./token";
 import { Viewer, type View } from "./viewer";
 import { Workbench } from "./workbench";
 
+const verbs = ["improve", "control"] as const;
 const viewer = new Viewer(find("canvas"));
 const forms: MethodForm[] = [];
 const fields = new KeptFields(find("steps"));
@@ -26,7 +28,9 @@ const bench: Workbench = new Workbench(
   },
   (session, unit, name) => {
     const sample = samples.find((one) => one.name === name);
+    const another = fields.session !== "" && fields.session !== session && !incoming.repeats;
     for (const form of forms) {
+      if (another) form.begin();
       form.suggest(sample?.options ?? {});
       form.unit = unit;
     }
@@ -35,10 +39,15 @@ const bench: Workbench = new Workbench(
   },
 );
 const incoming: Incoming = new Incoming(bench, () => update());
+bench.remedies = () => incoming.remedies();
 
 /** What can be done now. */
 function update(): void {
-  for (const form of forms) form.enabled = bench.ready && !incoming.busy;
+  forms.forEach((form, n) => {
+    form.enabled = bench.ready && !incoming.busy;
+    form.used(bench.used(verbs[n]!));
+  });
+  find("apply").setAttribute("aria-disabled", String(!incoming.canRepeat));
   const link = find<HTMLAnchorElement>("download");
   const path = bench.file(find<HTMLSelectElement>("format").value);
   link.setAttribute("aria-disabled", String(path === undefined));
@@ -51,11 +60,13 @@ function startTools(): void {
   find("colour").addEventListener("change", (event) => bench.colour((event.target as HTMLSelectElement).value as ColourBy));
   find("edges").addEventListener("change", (event) => viewer.showEdges((event.target as HTMLInputElement).checked));
   find("fit").addEventListener("click", () => viewer.fit());
-  const axis = find<HTMLSelectElement>("cut-axis"), share = find<HTMLInputElement>("cut");
+  const axis = find<HTMLSelectElement>("cut-axis"), share = find<HTMLInputElement>("cut"), place = find("cut-place"), flip = find("cut-flip");
   const cut = (): void => {
     if (axis.value === "") passFocus(share, axis);
     share.disabled = axis.value === "";
-    viewer.cut(axis.value === "" ? undefined : Number(axis.value), Number(share.value));
+    for (const one of [share, place, flip]) one.hidden = axis.value === "";
+    viewer.cut(axis.value === "" ? undefined : Number(axis.value), Number(share.value), flip.getAttribute("aria-pressed") === "true");
+    if (axis.value !== "") place.textContent = `${"xyz"[Number(axis.value)]} = ${bench.coordinate(Number(axis.value), Number(share.value))}`;
   };
   viewer.shown = (view) => {
     find<HTMLSelectElement>("view").value = view;
@@ -67,14 +78,19 @@ function startTools(): void {
   };
   axis.addEventListener("change", cut);
   share.addEventListener("input", cut);
-  viewer.cut(undefined, 1);
+  flip.addEventListener("click", () => {
+    flip.setAttribute("aria-pressed", String(flip.getAttribute("aria-pressed") !== "true"));
+    cut();
+  });
+  cut();
+  find("glossary").append(glossary());
 }
 
 async function startForms(): Promise<void> {
   const response = await fetch("openapi.json");
   if (!response.ok) throw await problemOf(response);
   const contract = (await response.json()) as Contract;
-  for (const verb of ["improve", "control"] as const) {
+  for (const verb of verbs) {
     const title = verb === "improve" ? "Improve" : "Control";
     const form: MethodForm = new MethodForm(find<HTMLFormElement>(verb), title, methodOptions(contract, `${title}Options`), (options) => {
       hideProblem();
@@ -91,7 +107,7 @@ async function startForms(): Promise<void> {
   find("download").addEventListener("click", (event) => {
     const path = bench.file(format.value);
     event.preventDefault();
-    if (path) fetchFile(path).catch((error: unknown) => showProblem(problemText(error)));
+    if (path) fetchFile(path, bench.fileStem).catch((error: unknown) => showProblem(problemText(error)));
   });
 }
 

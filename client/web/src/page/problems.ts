@@ -1,6 +1,7 @@
 import type { ProblemText } from "../shared/protocol";
 import { element, find, passFocus, refill } from "./dom";
 import { askForToken } from "./token";
+import { onPage } from "./words";
 
 let before: HTMLElement | undefined;
 
@@ -11,13 +12,16 @@ export function startProblems(): void {
   });
 }
 
-/** Shows what went wrong until it is closed or something else goes wrong. */
-export function showProblem({ cause, detail, field, retryAfter }: ProblemText): void {
+/** Shows what went wrong until it is closed or something else goes wrong. `remedies`: what can be done about it. */
+export function showProblem({ cause, detail, field, retryAfter }: ProblemText, ...remedies: Node[]): void {
   if (cause === "UNAUTHENTICATED" || cause === "FORBIDDEN") askForToken();
   const close = element("button", { type: "button", class: "quiet", "aria-label": "Close" }, "×");
-  const words = element("p", {}, element("strong", {}, cause), ` ${detail}`);
+  const words = element("p", {}, element("strong", {}, cause), ` ${onPage(detail)}`);
   if (field) words.append(element("span", { class: "hint" }, ` (${field})`));
   if (retryAfter) words.append(element("span", { class: "hint" }, ` Try again in ${retryAfter} s.`));
+  if (remedies.length > 0) words.append(element("span", { class: "links" }, ...remedies));
+  // What people end themselves is no fault.
+  find("problems").classList.toggle("calm", cause === "CANCELLED");
   close.addEventListener("click", hideProblem);
   refill(find("problems"), words, close);
 }

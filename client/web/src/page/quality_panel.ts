@@ -1,13 +1,22 @@
 import type { Figures, Spread } from "../shared/protocol";
 import { Ramp } from "../shared/colours";
 import { withUnit } from "../shared/units";
-import { count, element, figure } from "./dom";
+import { count, counted, element, figure } from "./dom";
+import { meanings } from "./legend";
+
+/** Distance of the result to the source. */
+export interface Deviation {
+  measured: number;
+  /** What the method was to keep. */
+  bound?: number;
+  /** Faces of the resolution that it was measured at, where another is shown. */
+  at?: number;
+}
 
 export interface Columns {
   source?: Figures;
   result?: Figures;
-  /** Measured distance of the result to the source. */
-  deviation?: number;
+  deviation?: Deviation;
   /** Of lengths; empty where it is not known. */
   unit: string;
 }
@@ -21,12 +30,20 @@ const rows: [string, (f: Figures, unit: string) => string][] = [
   ["Size, max", (f, unit) => withUnit(figure(f.sizeMax), unit)],
 ];
 
+/** What the figures mean, folded away. */
+export function glossary(): HTMLElement {
+  const deviation = "Deviation: largest distance of the result to the input and of the input to the result.";
+  return element("details", {}, element("summary", {}, "What these are"), ...[...Object.values(meanings), deviation].map((words) => element("p", { class: "hint" }, words)));
+}
+
 export function qualityTable({ source, result, deviation, unit }: Columns): HTMLElement {
   const cell = (figures: Figures | undefined, text: (f: Figures, unit: string) => string): HTMLElement =>
     element("td", {}, figures ? text(figures, unit) : "–");
   const body = element("tbody");
   for (const [name, text] of rows) body.append(element("tr", {}, element("th", { scope: "row" }, name), cell(source, text), cell(result, text)));
-  const distance = element("td", {}, deviation === undefined ? "–" : withUnit(figure(deviation), unit));
+  const distance = element("td", {}, deviation ? withUnit(figure(deviation.measured), unit) : "–");
+  if (deviation?.bound !== undefined) distance.append(element("span", { class: "aside" }, `bound ${withUnit(figure(deviation.bound), unit)}`));
+  if (deviation?.at !== undefined) distance.append(element("span", { class: "aside" }, `measured at ${counted(deviation.at, "face")}`));
   body.append(element("tr", {}, element("th", { scope: "row" }, "Deviation, max"), element("td", {}, "–"), distance));
   const head = element("tr", {}, element("td"), element("th", { scope: "col" }, "Input"), element("th", { scope: "col" }, "Result"));
   return element("table", { "aria-labelledby": "quality-title" }, element("thead", {}, head), body);

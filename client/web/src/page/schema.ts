@@ -1,3 +1,5 @@
+import { helpWords } from "./words";
+
 /** A field of a form: an option of a method as the contract describes it. */
 export interface Option {
   /** Path in the request, e.g. ["sizing", "chordError"]. */
@@ -53,7 +55,7 @@ function optionsOf(contract: Contract, message: string, before: string[]): Optio
     const description = plain(said.startsWith("As in ImproveOptions") ? (twin[name]?.description ?? said) : said);
     const target = schema.$ref?.split("/").at(-1) ?? "";
     const path = [...before, name];
-    const base = { path, help: description, standard: standardOf(description), unit: unitOf(name, description), choices: [], bounds: [schema.minimum ?? 0, schema.maximum ?? Number.MAX_SAFE_INTEGER] as const };
+    const base = { path, help: helpWords(description), standard: standardOf(description), unit: unitOf(name, description), choices: [], bounds: [schema.minimum ?? 0, schema.maximum ?? Number.MAX_SAFE_INTEGER] as const };
     if (target === "Double") options.push({ ...base, kind: "number" });
     else if (schema.type === "integer") options.push({ ...base, kind: "whole" });
     else if (schema.type === "boolean") options.push({ ...base, kind: "flag" });

@@ -178,10 +178,11 @@ export class Viewer {
     this.ask();
   }
 
-  /** Hides what lies beyond `share` of the part along an axis; no axis: nothing. */
-  cut(axis: number | undefined, share: number): void {
-    this.cutPlane.normal.set(axis === 0 ? -1 : 0, axis === 1 ? -1 : 0, axis === 2 ? -1 : 0);
-    this.cutPlane.constant = axis === undefined ? 1 : (2 * share - 1) * this.half.getComponent(axis) * 1.001;
+  /** Hides what lies beyond `share` of the part along an axis, or before it; no axis: nothing. */
+  cut(axis: number | undefined, share: number, before: boolean): void {
+    const side = before ? 1 : -1;
+    this.cutPlane.normal.set(axis === 0 ? side : 0, axis === 1 ? side : 0, axis === 2 ? side : 0);
+    this.cutPlane.constant = axis === undefined ? 1 : -side * (2 * share - 1) * this.half.getComponent(axis) * 1.001;
     this.ask();
   }
 

@@ -1,24 +1,26 @@
-import { fromJson, type JsonValue } from "@bufbuild/protobuf";
+import { fromJson, toJson, type JsonObject, type JsonValue } from "@bufbuild/protobuf";
 import { RepresentationSchema, type Representation, type Session } from "../gen/vsplit/v1/meshing_pb";
 import type { ColourBy } from "../shared/colours";
 import { Problem, problemText } from "../shared/problem";
 import type { Element, Figures, News, Order, Patch, Point, ProblemText } from "../shared/protocol";
-import { symbolOf } from "../shared/units";
+import { symbolOf, withUnit } from "../shared/units";
 import { readPlace, writePlace, type Place } from "./address";
-import { deleteSession, getSession, meshPath } from "./api";
+import { deleteSession, getSession, meshPath, representationAt } from "./api";
 import { Colouring } from "./colouring";
-import { find, refill } from "./dom";
+import { counted, figure, find, refill } from "./dom";
+import { exact } from "./exact";
 import { readFile, representationIn } from "./file_reader";
 import { forget, keep, keptOf, type Asked, type Verb } from "./kept";
 import { KeepAlive } from "./keep_alive";
 import { legend } from "./legend";
-import { askedOf, findingList, interruptedNotes, resultNotes, worstList } from "./lists";
+import { askedOf, brokenNote, clearNote, findingList, interruptedNotes, resultNotes, unknownNote, worstList } from "./lists";
 import { MeshWorker } from "./mesh_worker";
 import { showProblem } from "./problems";
 import { ProgressBar, workPlace } from "./progress";
-import { qualityTable, spreadTable, stretchHistogram } from "./quality_panel";
+import { qualityTable, spreadTable, stretchHistogram, type Deviation } from "./quality_panel";
 import { ResolutionSlider } from "./resolution";
-import { fileSummary, summaryOf } from "./summary";
+import { Resting } from "./resting";
+import { fileSummary, isManifold, summaryOf } from "./summary";
 import type { Slot, View, Viewer } from "./viewer";
 
 const nothingOpen = "No mesh yet";
@@ -51,17 +53,22 @@ export class Workbench {
   /** The resolution that the method was asked for: what it said is of that. */
   private at = 0;
   private centre: Point = [0, 0, 0];
+  private half: Point = [0, 0, 0];
   private readonly figures: Partial<Record<Slot, Figures>> = {};
   private fresh = false;
   private verb: Verb = "improve";
   private running = false;
   /** What was cut off by a reload, and is asked for anew when what the address names is there. */
   private again: Asked | undefined;
+  private readonly resting = new Resting((error) => this.heardOfRest(error));
   private readonly colouring = new Colouring(() => this.recolour());
   private source = this.worker("source");
   private result = this.worker("result");
   private readonly progress = new ProgressBar(workPlace(), () => runButton(this.verb), () => this.result.tell({ kind: "cancel" }));
   private readonly slider = new ResolutionSlider((faces) => this.order({ kind: "faces", faces }));
+
+  /** What can be done where a mesh is no manifold: buttons, or words. */
+  remedies: () => Node[] = () => [];
 
   /** `changed`: when methods can be run or not. `opened`: when a session is, with its unit of length and the name of the sample that it has. */
   constructor(
@@ -73,6 +80,18 @@ export class Workbench {
   /** Whether a method can be run. */
   get ready(): boolean {
     return this.session !== undefined && !this.lost && !this.result.busy;
+  }
+
+  /** The open session's id. */
+  get id(): string | undefined {
+    return this.session?.id;
+  }
+
+  /** The options that the newest result of a method was made with, defaults filled in. */
+  used(verb: Verb): JsonObject | undefined {
+    const made = [this.made, ...(this.session?.representations ?? []).slice().reverse()];
+    const all = made.map((one) => (one ? (toJson(RepresentationSchema, one) as JsonObject)[`${verb}Options`] : undefined));
+    return all.find((options) => options !== undefined) as JsonObject | undefined;
   }
 
   /** Whether it is what an address names; that need not say everything. */
@@ -131,6 +150,7 @@ export class Workbench {
     worker.heard = (more) => this.hear("result", more);
     this.made = representationIn(news);
     this.faces = this.at = news.faces;
+    this.resting.take(this.made);
     this.surround(news.centre, news.half);
     this.viewer.show("result");
     this.recolour();
@@ -160,6 +180,7 @@ export class Workbench {
     this.name = "";
     this.sample = undefined;
     this.alive.end();
+    this.resting.clear();
     delete this.figures.source;
     delete this.figures.result;
     this.load(false);
@@ -209,6 +230,7 @@ export class Workbench {
   /** The box around what is open: its middle, and half its edges. */
   private surround(centre: Point, half: Point): void {
     this.centre = centre;
+    this.half = half;
     this.viewer.frame(half);
   }
 
@@ -251,6 +273,17 @@ export class Workbench {
     this.colouring.show(view);
   }
 
+  /** Where a cut is along an axis, at a share of the part, with its unit. */
+  coordinate(axis: number, share: number): string {
+    return withUnit(figure(this.centre[axis]! + (2 * share - 1) * this.half[axis]!), this.unit);
+  }
+
+  /** Name of a file of what is shown, without an ending: the part's and, of a result, its faces. */
+  get fileStem(): string {
+    const part = this.name.replace(/\.\w+$/, "") || "mesh";
+    return this.made ? `${part}-${this.faces}` : part;
+  }
+
   /** Where the mesh that is shown can be had as a file. */
   file(format: string): string | undefined {
     return this.session && !this.lost ? meshPath(this.session.id, this.made?.id ?? "", this.faces, format) : undefined;
@@ -284,7 +317,11 @@ export class Workbench {
           this.load(false);
         } else {
           this.draw(news.patch);
-          this.faces = news.patch.visible;
+          const { visible } = news.patch;
+          // What was said of the resolution before is not true of this one.
+          const moved = visible !== this.faces;
+          this.faces = visible;
+          if (moved) this.showNotes();
           this.slider.tell(this.faces);
           if (news.patch.records > 0) find("canvas").dataset["step"] = stepText(news.patch);
         }
@@ -295,7 +332,7 @@ export class Workbench {
         this.showQuality();
         this.showWorst();
         if (slot === "result" && this.made) this.writePlace(this.faces);
-        return;
+        return this.askOfRest();
       case "progress":
         mark("vsplit method ended"); // unless another comes
         this.fresh = true;
@@ -317,6 +354,7 @@ export class Workbench {
         this.progress.hide();
         if (this.made) this.slider.set(this.made.facesMin, this.made.facesMax, this.faces);
         this.changed();
+        this.askOfRest();
         return this.goOn();
     }
   }
@@ -326,15 +364,29 @@ export class Workbench {
     // Other resolutions come without what was measured at the one asked for.
     if (another) this.at = made.faces;
     this.made = another ? made : Object.assign(this.made!, { facesMin: made.facesMin, facesMax: made.facesMax });
+    this.resting.take(made);
     this.slider.set(made.facesMin, made.facesMax, made.faces);
     this.showNotes();
     this.showQuality();
     this.writePlace(this.faces);
   }
 
+  /** Where the mesh stays at a resolution the server is asked for its figures and bounds; a file's are known of one alone. */
+  private askOfRest(): void {
+    const { session, made } = this;
+    if (!session || !made || this.lost || this.result.busy || this.figures.result?.faces !== this.faces) return;
+    this.resting.ask(this.faces, (faces, signal) => representationAt(session.id, made.id, faces, signal));
+  }
+
+  private heardOfRest(error: unknown): void {
+    if (error !== undefined && problemText(error).field === "session") this.tell(problemText(error));
+    this.showNotes();
+    this.showQuality();
+  }
+
   /** Something went wrong. What is held of a session that is gone stays to be looked at. */
   private tell(problem: ProblemText): void {
-    showProblem(problem);
+    showProblem(problem, ...(problem.cause === "NON_MANIFOLD" ? this.remedies() : []));
     if (problem.cause === "NOT_FOUND" && problem.field === "session" && this.session) {
       this.lost = true;
       this.ended();
@@ -368,10 +420,10 @@ export class Workbench {
     refill(find("worst"), worstList(this.figures[slot]?.worst ?? [], (place, size) => this.fly(slot, place, size)));
   }
 
-  /** To an element of the resolution that the method was asked for: it may not be there at others. */
-  private locate(element: Element): void {
+  /** To an element of a resolution: it may not be there at others. */
+  private locate(element: Element, faces: number): void {
     if (this.running) showProblem({ cause: "BUSY", detail: "a method runs; the mesh stays as it is until its result comes" });
-    else this.order({ kind: "locate", faces: this.at, element });
+    else this.order({ kind: "locate", faces, element });
   }
 
   private fly(slot: Slot, place: Point, size?: number): void {
@@ -380,9 +432,23 @@ export class Workbench {
   }
 
   private showQuality(): void {
-    const columns = { ...this.figures, deviation: this.made && this.at === this.faces ? this.made.quality?.deviationMax : undefined, unit: this.unit };
+    const { source, result } = this.figures;
+    const columns = {
+      source: exact(source, this.session?.source?.quality),
+      result: exact(result, this.made && this.resting.at(this.faces)?.quality),
+      deviation: this.deviation(),
+      unit: this.unit,
+    };
     find("table").replaceChildren(qualityTable(columns), spreadTable(columns));
     find("histogram").replaceChildren(stretchHistogram(columns));
+  }
+
+  /** Measured at the resolution that the method was asked for alone. */
+  private deviation(): Deviation | undefined {
+    const { made, at, faces } = this;
+    const measured = made?.quality?.deviationMax;
+    if (!made || measured === undefined) return undefined;
+    return { measured, bound: made.options.value?.maxDeviation, at: at === faces ? undefined : at };
   }
 
   private showNotes(): void {
@@ -394,10 +460,23 @@ export class Workbench {
         this.ask(askedOf(method));
         this.showNotes();
       }),
-      ...(made ? resultNotes(made, this.at, (element) => this.locate(element)) : []),
+      ...(made ? this.notesOf(made) : []),
+      ...(session?.source && !isManifold(session.source) ? [brokenNote(this.remedies())] : []),
       ...findingList(session?.source?.findings ?? [], (place) => this.fly("source", place)),
     ];
-    refill(find("notes"), ...(notes.length > 0 ? notes : [session || made ? "Nothing to report." : "–"]));
+    refill(find("notes"), ...(notes.length > 0 ? notes : [made ? `Nothing to report at ${counted(this.at, "face")}.` : session ? "Nothing to report." : "–"]));
+  }
+
+  /** What is amiss at the resolution that is shown, and, where that is another, at the one that the method was asked for. */
+  private notesOf(made: Representation): HTMLElement[] {
+    const { faces, at } = this;
+    const go = (element: Element, where: number): void => this.locate(element, where);
+    const asked = resultNotes(made, at, (element) => go(element, at));
+    if (faces === at || this.running || faces === 0) return asked;
+    const said = this.resting.at(faces);
+    const shown = said ? resultNotes(said, faces, (element) => go(element, faces)) : [unknownNote(faces, this.session !== undefined && !this.lost)];
+    if (said && shown.length === 0) shown.push(clearNote(said, at));
+    return [...shown, ...asked];
   }
 
   /** Of lengths. */

@@ -12,7 +12,7 @@ type Painted = Pick<Patch, "runs" | "positions" | "colours" | "sizes">;
 
 /** Makes what is drawn out of faces. */
 export class Painter {
-  private valence: Uint16Array = new Uint16Array(0);
+  private valence: Uint32Array = new Uint32Array(0);
   private readonly shape = new FaceShape();
   private sizes = new Extent();
 

@@ -44,18 +44,36 @@ export class FaceShape {
   }
 }
 
-/** Edges at each vertex that are seen, as the server counts them: at an open boundary one more than faces. */
-export function valences(surface: Surface): Uint16Array {
-  const { corners, faceCount, ghosts, vertexCount } = surface;
-  const count = new Uint16Array(vertexCount);
-  const open = new Uint8Array(vertexCount);
-  for (let f = 0; f < faceCount; ++f) {
-    const seen = isSeen(surface, f);
-    for (let c = 3 * f; c < 3 * f + 3; ++c) {
-      if (seen) ++count[corners[c]!]!;
-      else if (corners[c]! >= ghosts) open[corners[c]!] = 1;
+/** For each vertex, where the corners at it begin in a list that is ordered by vertex, of faces that are seen. */
+function cornersByVertex(surface: Surface): { first: Uint32Array; faces: Uint32Array } {
+  const { corners, faceCount, vertexCount } = surface;
+  const first = new Uint32Array(vertexCount + 1);
+  const each = (visit: (vertex: number, face: number) => void): void => {
+    for (let f = 0; f < faceCount; ++f) if (isSeen(surface, f)) for (let c = 3 * f; c < 3 * f + 3; ++c) visit(corners[c]!, f);
+  };
+  each((vertex) => ++first[vertex + 1]!);
+  for (let v = 0; v < vertexCount; ++v) first[v + 1]! += first[v]!;
+  const faces = new Uint32Array(first[vertexCount]!), next = first.slice(0, vertexCount);
+  each((vertex, face) => (faces[next[vertex]!++] = face));
+  return { first, faces };
+}
+
+/** Edges at each vertex that are seen, as the server counts them: each once, however many faces share it. O(faces). */
+export function valences(surface: Surface): Uint32Array {
+  const { corners, vertexCount } = surface;
+  const { first, faces } = cornersByVertex(surface);
+  const count = new Uint32Array(vertexCount);
+  /** The vertex from which a neighbour was met last, plus one. */
+  const met = new Uint32Array(vertexCount);
+  for (let v = 0; v < vertexCount; ++v) {
+    for (let n = first[v]!; n < first[v + 1]!; ++n) {
+      for (let c = 3 * faces[n]!; c < 3 * faces[n]! + 3; ++c) {
+        const other = corners[c]!;
+        if (other === v || met[other] === v + 1) continue;
+        met[other] = v + 1;
+        ++count[v]!;
+      }
     }
   }
-  for (let v = 0; v < vertexCount; ++v) count[v]! += open[v]!;
   return count;
 }
