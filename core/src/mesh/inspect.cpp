@@ -338,7 +338,8 @@ Status require_vertices(const MeshReport& report) {
         return Error{Cause::kNonManifold,
                      "the boundary touches itself at vertex " + list(report.boundary_touches) +
                          "; accepted is a boundary that passes every vertex at most once: give each part a vertex of its own, or "
-                         "fill the gap between them" + kRepairHelps,
+                         "fill the gap between them" +
+                         kRepairHelps,
                      ""};
     }
     if (const Finding* f = find_kind(report, Finding::Kind::kNonManifoldVertex)) {
