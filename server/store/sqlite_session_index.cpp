@@ -152,7 +152,7 @@ Status SqliteSessionIndex::take_steps(std::int64_t version) {
     for (std::size_t step = static_cast<std::size_t>(version); step < kSteps.size(); ++step) {
         if (Status made = database_.run(kSteps[step]); !made) return made;
     }
-    if (Status signed_ = sign(); !signed_) return signed_;
+    if (Status done = sign(); !done) return done;
     return transaction.commit();
 }
 

@@ -190,7 +190,7 @@ TEST_F(ServerProcessTest, HelpAndVersionAreNoErrors) {
 }
 
 TEST_F(ServerProcessTest, LimitsAreFlags) {
-    start({"--max-upload-bytes", "1000", "--max-sessions", "2", "--max-faces", "100", "--session-ttl", "77"});
+    start({"--max-upload-bytes", "3000", "--max-sessions", "2", "--max-faces", "100", "--session-ttl", "77"});
     const Reply<v1::Session> created = create_session(*stub_, file_of(icosphere(1)));
     ASSERT_TRUE(created.status.ok());
     EXPECT_NEAR(static_cast<double>(created.message.expire_time().seconds() - created.message.create_time().seconds()), 77, 2);
