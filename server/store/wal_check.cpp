@@ -1,6 +1,7 @@
 #include "store/wal_check.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace vsplit::store {
 namespace {
@@ -11,6 +12,7 @@ constexpr std::size_t kHeader = 32;
 constexpr std::size_t kFrameHeader = 24;
 constexpr std::uint32_t kMagic = 0x377f0682;  // its last bit: checksums are of big-endian words
 constexpr std::uint32_t kFormat = 3'007'000;
+constexpr std::uint32_t kLeastPage = 512, kMostPage = 65536;  // powers of two
 
 std::uint32_t word(Bytes bytes, std::size_t at, bool big_endian = true) {
     std::uint32_t value = 0;
@@ -45,7 +47,8 @@ Header read_header(Bytes log) {
     header.big_endian = (word(log, 0) & 1U) != 0;
     header.checksum.add(log.first(24), header.big_endian);
     const bool sound = (word(log, 0) & ~1U) == kMagic && word(log, 4) == kFormat && header.checksum.is_at(log, 24);
-    if (sound) header.page = word(log, 8);
+    const std::uint32_t page = word(log, 8);
+    if (sound && std::has_single_bit(page) && page >= kLeastPage && page <= kMostPage) header.page = page;
     return header;
 }
 

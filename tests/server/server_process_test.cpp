@@ -207,12 +207,17 @@ TEST_F(ServerProcessTest, StopsSoonWhenNothingRuns) {
     EXPECT_EQ(process_->wait(seconds(4)), 0) << "less than the grace for what runs";
 }
 
+/// One that outlasts every grace.
+v1::ImproveRequest endless_improve(const std::string& session) {
+    v1::ImproveRequest request = long_improve(session);
+    request.mutable_options()->set_subdivision_size(0.006);
+    return request;
+}
+
 TEST_F(ServerProcessTest, AMethodThatRunsDelaysTheEndByTheGraceAtMost) {
     start({"--workers", "1"});
     const std::string id = session_with(*stub_, icosphere(3));
-    v1::ImproveRequest request = long_improve(id);
-    request.mutable_options()->set_subdivision_size(0.006);
-    RunningImprove running(*stub_, request);
+    RunningImprove running(*stub_, endless_improve(id));
     ASSERT_TRUE(running.wait_until_working());
     process_->send(SIGTERM);
     EXPECT_EQ(process_->wait(seconds(60)), 0);
@@ -224,10 +229,8 @@ TEST_F(ServerProcessTest, AMethodThatTheEndCutsOffIsKnownAfterTheNextStart) {
     const std::vector<std::string> arguments{"--workers", "1", "--drain", "1", "--data-dir", scratch.path().string()};
     start(arguments);
     const std::string id = session_with(*stub_, icosphere(3));
-    v1::ImproveRequest request = long_improve(id);
-    request.mutable_options()->set_subdivision_size(0.006);
     {
-        RunningImprove running(*stub_, request);
+        RunningImprove running(*stub_, endless_improve(id));
         ASSERT_TRUE(running.wait_until_working());
         process_->send(SIGTERM);
         EXPECT_EQ(process_->wait(seconds(60)), 0);

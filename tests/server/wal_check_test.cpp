@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "store/sqlite.h"
 #include "tests/temp_directory.h"
@@ -92,6 +94,22 @@ TEST_F(WalCheckTest, ATailThatACrashCutShortIsNoDamage) {
         std::string torn = log_;
         torn[at] = static_cast<char>(torn[at] ^ 1);
         EXPECT_EQ(lost_of(torn), 0U) << at;
+    }
+}
+
+// Whoever can write the file can make its checksum.
+TEST_F(WalCheckTest, APageSizeThatSqliteHasNotIsADamagedHeader) {
+    for (const std::uint32_t page : {0U, 1U, 13U, 511U, 1000U, 0x80000000U, 0xFFFFFFFFU}) {
+        std::vector<std::uint32_t> words{0x377f0683, 3'007'000, page, 0, 1, 2, 0, 0};
+        for (std::size_t at = 0; at < 6; at += 2) {
+            words[6] += words[at] + words[7];
+            words[7] += words[at + 1] + words[6];
+        }
+        std::string log;
+        for (const std::uint32_t word : words) {
+            for (const int shift : {24, 16, 8, 0}) log += static_cast<char>(word >> static_cast<unsigned>(shift));
+        }
+        EXPECT_EQ(lost_of(log + std::string(200, 'x')), 1U) << page;
     }
 }
 
