@@ -16,7 +16,7 @@ std::vector<Segment> sharp_segments(const TriangleMesh& mesh, double angle) {
     EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
         if (last - first != 2) return;
         const double cosine = normals[face_of(first[0].half_edge)].dot(normals[face_of(first[1].half_edge)]);
-        if (cosine < threshold) segments.push_back({mesh.positions[first->a()], mesh.positions[first->b()]});
+        if (cosine < threshold) segments.push_back({mesh.positions[first->a], mesh.positions[first->b]});
     });
     return segments;
 }
@@ -24,7 +24,7 @@ std::vector<Segment> sharp_segments(const TriangleMesh& mesh, double angle) {
 std::vector<Segment> border_segments(const TriangleMesh& mesh) {
     std::vector<Segment> segments;
     EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
-        if (last - first != 2) segments.push_back({mesh.positions[first->a()], mesh.positions[first->b()]});
+        if (last - first != 2) segments.push_back({mesh.positions[first->a], mesh.positions[first->b]});
     });
     return segments;
 }

@@ -48,7 +48,7 @@ public:
         nodes_.of_face.resize(mesh.faces.size());
         EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
             const auto node = static_cast<std::uint32_t>(mesh.vertex_count() + chords_.size());
-            chords_.push_back({first->a(), first->b()});
+            chords_.push_back({first->a, first->b});
             for (const EdgeIndex::Entry* e = first; e != last; ++e)
                 nodes_.of_face[face_of(e->half_edge)][e->half_edge % 3] = node;
         });

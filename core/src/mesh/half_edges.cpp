@@ -10,19 +10,19 @@
 namespace vsplit {
 namespace {
 
-/// \pre in order of half-edges. Nearly all vertices have a few edges only, for which this is quickest.
+/// By b. \pre all have the same a, in order of half-edges. Nearly all vertices have a few edges only, for which this is quickest.
 void sort_edges(EdgeIndex::Entry* first, EdgeIndex::Entry* last) {
     constexpr std::ptrdiff_t kFew = 32;
     if (last - first > kFew) {
         std::sort(first, last, [](const EdgeIndex::Entry& left, const EdgeIndex::Entry& right) {
-            return std::tie(left.key, left.half_edge) < std::tie(right.key, right.half_edge);
+            return std::tie(left.b, left.half_edge) < std::tie(right.b, right.half_edge);
         });
         return;
     }
     for (EdgeIndex::Entry* entry = first; entry < last; ++entry) {
         const EdgeIndex::Entry moved = *entry;
         EdgeIndex::Entry* to = entry;
-        for (; to > first && (to - 1)->key > moved.key; --to) *to = *(to - 1);
+        for (; to > first && (to - 1)->b > moved.b; --to) *to = *(to - 1);
         *to = moved;
     }
 }
@@ -40,7 +40,7 @@ EdgeIndex::EdgeIndex(const std::vector<Triangle>& faces, std::size_t vertices) {
     std::vector<std::uint32_t> slot(first.begin(), first.end() - 1);
     for (HalfEdge h = 0; h < half_edges; ++h) {
         const auto [a, b] = ends(h);
-        entries_[slot[a]++] = {std::uint64_t{a} << 32U | b, h};
+        entries_[slot[a]++] = {a, b, h};
     }
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices, 4096), [&](const tbb::blocked_range<std::size_t>& range) {
         for (std::size_t v = range.begin(); v < range.end(); ++v)
@@ -66,8 +66,8 @@ std::vector<HalfEdge> half_edge_twins(const TriangleMesh& mesh, const EdgeIndex&
 std::vector<std::uint32_t> valences(const TriangleMesh& mesh, const EdgeIndex& edges) {
     std::vector<std::uint32_t> valence(mesh.positions.size(), 0);
     edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* /*last*/) {
-        ++valence[first->a()];
-        ++valence[first->b()];
+        ++valence[first->a];
+        ++valence[first->b];
     });
     return valence;
 }

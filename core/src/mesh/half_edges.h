@@ -27,11 +27,11 @@ inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 class EdgeIndex {
 public:
     struct Entry {
-        std::uint64_t key = 0;  ///< a << 32 | b, a < b
+        std::uint32_t a = 0;  ///< a < b
+        std::uint32_t b = 0;
         HalfEdge half_edge = 0;
 
-        [[nodiscard]] std::uint32_t a() const { return static_cast<std::uint32_t>(key >> 32U); }
-        [[nodiscard]] std::uint32_t b() const { return static_cast<std::uint32_t>(key); }
+        [[nodiscard]] bool is_of_same_edge(const Entry& other) const { return a == other.a && b == other.b; }
     };
 
     explicit EdgeIndex(const TriangleMesh& mesh) : EdgeIndex(mesh.faces, mesh.positions.size()) {}
@@ -42,7 +42,7 @@ public:
     void for_each_edge(Visit visit) const {
         for (std::size_t begin = 0; begin < entries_.size();) {
             std::size_t end = begin + 1;
-            while (end < entries_.size() && entries_[end].key == entries_[begin].key) ++end;
+            while (end < entries_.size() && entries_[end].is_of_same_edge(entries_[begin])) ++end;
             visit(entries_.data() + begin, entries_.data() + end);
             begin = end;
         }

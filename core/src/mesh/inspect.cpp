@@ -65,10 +65,10 @@ EdgeSurvey survey_edges(const TriangleMesh& mesh, const EdgeIndex& edges) {
         ++survey.edges;
         for (const auto* other = first + 1; other != last; ++other)
             parts.join(face_of(first->half_edge), face_of(other->half_edge));
-        if (last - first == 1) survey.boundary.add({first->a(), first->b()});
-        if (last - first > 2) survey.non_manifold.add({first->a(), first->b()});
+        if (last - first == 1) survey.boundary.add({first->a, first->b});
+        if (last - first > 2) survey.non_manifold.add({first->a, first->b});
         if (last - first == 2 && origin(mesh, first[0].half_edge) == origin(mesh, first[1].half_edge)) {
-            survey.inconsistent.add({first->a(), first->b()});
+            survey.inconsistent.add({first->a, first->b});
         }
     });
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) survey.components += parts.find(f) == f ? 1 : 0;
@@ -81,8 +81,8 @@ std::vector<std::uint8_t> vertices_of_several_fans(const TriangleMesh& mesh, con
     const auto corner_at = [&](HalfEdge h, std::uint32_t vertex) { return origin(mesh, h) == vertex ? h : next(h); };
     edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
         for (const auto* other = first + 1; other != last; ++other) {
-            fans.join(corner_at(first->half_edge, first->a()), corner_at(other->half_edge, first->a()));
-            fans.join(corner_at(first->half_edge, first->b()), corner_at(other->half_edge, first->b()));
+            fans.join(corner_at(first->half_edge, first->a), corner_at(other->half_edge, first->a));
+            fans.join(corner_at(first->half_edge, first->b), corner_at(other->half_edge, first->b));
         }
     });
     std::vector<std::uint32_t> fan_of(mesh.positions.size(), kNone);
@@ -164,7 +164,7 @@ FindingCounter survey_duplicates(const TriangleMesh& mesh, const EdgeIndex& edge
         third.clear();
         for (const auto* entry = first; entry != last; ++entry) {
             const std::uint32_t opposite = origin(mesh, prev(entry->half_edge));
-            if (opposite >= first->b()) third.emplace_back(opposite, face_of(entry->half_edge));
+            if (opposite >= first->b) third.emplace_back(opposite, face_of(entry->half_edge));
         }
         if (third.size() < 2) return;
         std::sort(third.begin(), third.end());
@@ -186,8 +186,8 @@ std::vector<std::uint32_t> survey_touches(const TriangleMesh& mesh, const EdgeIn
     std::vector<std::uint32_t> ends(mesh.positions.size(), 0);
     edges.for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
         if (last - first != 1) return;
-        ++ends[first->a()];
-        ++ends[first->b()];
+        ++ends[first->a];
+        ++ends[first->b];
     });
     for (std::uint32_t v = 0; v < mesh.vertex_count() && touches.size() < Finding::kExamples; ++v) {
         if (ends[v] >= 4) touches.push_back(v);

@@ -29,7 +29,7 @@ Edges bends_of(const TriangleMesh& mesh, double angle) {
 
 Edges edges_of(const TriangleMesh& mesh) {
     Edges edges;
-    EdgeIndex(mesh).for_each_edge([&](const auto* first, const auto*) { edges.push_back({first->a(), first->b()}); });
+    EdgeIndex(mesh).for_each_edge([&](const auto* first, const auto*) { edges.push_back({first->a, first->b}); });
     return edges;
 }
 
@@ -84,7 +84,7 @@ std::vector<SharpEdge> creases_kept(const TriangleMesh& result, const TriangleMe
     std::sort(bends_here.begin(), bends_here.end());
     std::vector<SharpEdge> kept;
     EdgeIndex(result).for_each_edge([&](const auto* first, const auto* last) {
-        const EdgeEnds edge{first->a(), first->b()};
+        const EdgeEnds edge{first->a, first->b};
         const double length = (result.positions[edge[1]] - result.positions[edge[0]]).norm();
         const bool bend = std::binary_search(bends_here.begin(), bends_here.end(), edge) && along(bends, edge, distance);
         if (last - first == 1 || bend || along(lines, edge, kAlong * length)) kept.push_back({edge[0], edge[1], 1});

@@ -34,7 +34,7 @@ Edges edges_between_borders(const TriangleMesh& mesh, const std::vector<Loop>& l
     }
     Edges edges;
     EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* /*last*/) {
-        if (on_border[first->a()] && on_border[first->b()]) edges.emplace_back(first->a(), first->b());
+        if (on_border[first->a] && on_border[first->b]) edges.emplace_back(first->a, first->b);
     });
     std::sort(edges.begin(), edges.end());
     return edges;

@@ -20,15 +20,15 @@ struct Leaf {
 };
 
 std::vector<Leaf> leaves_around(const TriangleMesh& mesh, Entries entries) {
-    const Vec3& from = mesh.positions[entries.front().a()];
-    const Vec3 axis = (mesh.positions[entries.front().b()] - from).normalized();
+    const Vec3& from = mesh.positions[entries.front().a];
+    const Vec3 axis = (mesh.positions[entries.front().b] - from).normalized();
     const Vec3 x = axis.unitOrthogonal();
     const Vec3 y = axis.cross(x);
     std::vector<Leaf> leaves;
     for (const EdgeIndex::Entry& entry : entries) {
         const Vec3 to_apex = mesh.positions[origin(mesh, prev(entry.half_edge))] - from;
         leaves.push_back(
-            {std::atan2(y.dot(to_apex), x.dot(to_apex)), entry.half_edge, origin(mesh, entry.half_edge) == entries.front().a()});
+            {std::atan2(y.dot(to_apex), x.dot(to_apex)), entry.half_edge, origin(mesh, entry.half_edge) == entries.front().a});
     }
     std::stable_sort(leaves.begin(), leaves.end(), [](const Leaf& l, const Leaf& r) { return l.angle < r.angle; });
     return leaves;
@@ -64,7 +64,7 @@ std::vector<HalfEdge> choose_mates(Draft& draft) {
         const bool agree = origin(mesh, first[0].half_edge) != origin(mesh, first[1].half_edge);
         if (last - first == 2 && agree) return pair_up(mates, first[0].half_edge, first[1].half_edge);
         if (last - first > 2) pair_around(mesh, {first, last}, mates);
-        draft.changes.add(Finding::Kind::kSplitEdge, (draft.at(first->a()) + draft.at(first->b())) / 2,
+        draft.changes.add(Finding::Kind::kSplitEdge, (draft.at(first->a) + draft.at(first->b)) / 2,
                           draft.parent[face_of(first->half_edge)]);
     });
     return mates;
@@ -108,7 +108,7 @@ void split_double_edges(Draft& draft, const std::vector<HalfEdge>& mates) {
             if (std::exchange(is_first, false)) continue;
             middles.push_back({h, 0.5, mesh.vertex_count()});
             if (mates[h] != kNone) middles.push_back({mates[h], 0.5, mesh.vertex_count()});
-            mesh.positions.push_back((draft.at(entry->a()) + draft.at(entry->b())) / 2);
+            mesh.positions.push_back((draft.at(entry->a) + draft.at(entry->b)) / 2);
         }
     });
     insert_on_sides(draft, std::move(middles));

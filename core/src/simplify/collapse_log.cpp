@@ -31,8 +31,8 @@ private:
 /// What is left of the simplified mesh, and the numbers its parts get.
 class Builder {
 public:
-    Builder(const HalfEdgeMesh& mesh, std::uint32_t ghosts)
-        : vertex_(mesh.vertex_count(), kNone), half_edge_(mesh.half_edge_count()) {
+    explicit Builder(const HalfEdgeMesh& mesh) : vertex_(mesh.vertex_count(), kNone), half_edge_(mesh.half_edge_count()) {
+        const std::uint32_t ghosts = mesh.ghosts();
         mrr_.ghosts = ghosts;
         const auto is_there = [&mesh](std::uint32_t face) { return !mesh.removed(3 * face); };
         const auto twin = [&mesh](HalfEdge h) { return mesh.twin(h); };
@@ -54,8 +54,8 @@ public:
     }
     void add_flip(HalfEdge h) { mrr_.records.push_back(EdgeFlip{half_edge_[h]}); }
 
-    /// Vertex `left` of the mesh stood for both until now; from here on it is `kept`.
-    void give_number(std::uint32_t left, std::uint32_t kept) { vertex_[kept] = vertex_[left]; }
+    /// Vertex `stayed` of the mesh stood for both until now; from here on it is `kept`.
+    void give_number(std::uint32_t stayed, std::uint32_t kept) { vertex_[kept] = vertex_[stayed]; }
 
     /// The faces of ij and ji come back, and vertex `removed`. The anchor's face was alive when the collapse was made, so it is
     /// numbered by now.
@@ -91,21 +91,18 @@ void CollapseLog::record(const HalfEdgeMesh& mesh, const EdgeStar& star) {
     const std::uint32_t i = mesh.origin(star.ij);
     const std::uint32_t j = mesh.origin(star.ji);
     const std::uint32_t valence_i = mesh.valence(i), valence_j = mesh.valence(j);
-    const bool is_j_new = valence_j <= valence_i;
     Entry entry;
-    entry.ij = is_j_new ? star.ij : star.ji;
-    entry.ji = is_j_new ? star.ji : star.ij;
-    entry.anchor = is_j_new ? star.jb : star.ie;
-    entry.kept = is_j_new ? i : j;
-    entry.removed = is_j_new ? j : i;
-    entry.left = i;
-    entry.steps = std::min(valence_i, valence_j) - 2;
-    entry.least_wing = std::min(mesh.origin(star.ei), mesh.origin(star.bj));
-    entry.first_flip = static_cast<std::uint32_t>(flips_.size());
-    entry.first_move = static_cast<std::uint32_t>(moves_.size());
-    entry.kept_at = mesh.position(entry.kept);
-    entry.removed_at = mesh.position(entry.removed);
+    entry.is_gone_new = valence_j <= valence_i;
+    entry.ij = entry.is_gone_new ? star.ij : star.ji;
+    entry.ji = entry.is_gone_new ? star.ji : star.ij;
+    entry.anchor = entry.is_gone_new ? star.jb : star.ie;
+    entry.steps = static_cast<std::uint16_t>(std::min(valence_i, valence_j) - 2);
+    entry.is_at_border = mesh.is_ghost(mesh.origin(star.ei)) || mesh.is_ghost(mesh.origin(star.bj));
+    entry.stayed_at = mesh.position(i);
     entries_.push_back(entry);
+    stayed_ = i;
+    if (flips_.empty() && moves_.empty() && edits_.empty()) return;
+    edits_.push_back({static_cast<std::uint32_t>(flips_.size()), static_cast<std::uint32_t>(moves_.size())});
 }
 
 void CollapseLog::record_flip(HalfEdge h) {
@@ -113,7 +110,7 @@ void CollapseLog::record_flip(HalfEdge h) {
 }
 
 void CollapseLog::record_move(std::uint32_t v, const Vec3& before) {
-    if (entries_.empty() || v == entries_.back().left) return;
+    if (entries_.empty() || v == stayed_) return;
     if (v >= moved_in_.size()) moved_in_.resize(std::max<std::size_t>(v + std::size_t{1}, 2 * moved_in_.size()), 0);
     const auto step = static_cast<std::uint32_t>(entries_.size());
     if (std::exchange(moved_in_[v], step) != step) moves_.push_back({v, before});
@@ -123,21 +120,28 @@ void CollapseLog::record_move(std::uint32_t v, const Vec3& before) {
 void CollapseLog::keep_net_moves(const HalfEdgeMesh& mesh) {
     if (entries_.empty()) return;
     const auto in_vain = [&mesh](const VertexMove& move) { return mesh.position(move.vertex) == move.position; };
-    moves_.erase(std::remove_if(moves_.begin() + entries_.back().first_move, moves_.end(), in_vain), moves_.end());
+    moves_.erase(std::remove_if(moves_.begin() + last_edits().moves, moves_.end(), in_vain), moves_.end());
 }
 
-MultiresMesh CollapseLog::build(const HalfEdgeMesh& mesh, std::uint32_t ghosts) {
+MultiresMesh CollapseLog::build(const HalfEdgeMesh& mesh) {
     keep_net_moves(mesh);
-    Builder builder(mesh, ghosts);
+    Builder builder(mesh);
     builder.mrr().records.reserve(entries_.size(), flips_.size(), moves_.size());
     for (; !entries_.empty(); entries_.pop_back()) {
         const Entry& entry = entries_.back();
-        for (; flips_.size() > entry.first_flip; flips_.pop_back()) builder.add_flip(flips_.back());
-        builder.add_moves(std::span(moves_).subspan(entry.first_move));
-        moves_.resize(entry.first_move);
-        builder.give_number(entry.left, entry.kept);
-        if (entry.least_wing < ghosts) builder.mrr().border_splits.push_back(static_cast<std::uint32_t>(builder.mrr().levels()));
-        builder.add_split({entry.anchor, entry.steps, entry.kept_at, entry.removed_at}, entry.ij, entry.ji, entry.removed);
+        const Edits before = last_edits();
+        if (!edits_.empty()) edits_.pop_back();
+        for (; flips_.size() > before.flips; flips_.pop_back()) builder.add_flip(flips_.back());
+        builder.add_moves(std::span(moves_).subspan(before.moves));
+        moves_.resize(before.moves);
+        if (entry.is_at_border) builder.mrr().border_splits.push_back(static_cast<std::uint32_t>(builder.mrr().levels()));
+        // Of ij and ji the vertex kept and the new one: removed half-edges have their origins still.
+        const std::uint32_t kept = mesh.origin(entry.ij), added = mesh.origin(entry.ji);
+        const Vec3& gone_at = mesh.position(entry.is_gone_new ? added : kept);
+        builder.give_number(entry.is_gone_new ? kept : added, kept);
+        const VertexSplit split{entry.anchor, entry.steps, entry.is_gone_new ? entry.stayed_at : gone_at,
+                                entry.is_gone_new ? gone_at : entry.stayed_at};
+        builder.add_split(split, entry.ij, entry.ji, added);
     }
     clear();
     return std::move(builder.mrr());

@@ -32,31 +32,37 @@ public:
 
     /// Numbers what is left of `mesh` as the base mesh, each vertex and pair of faces that went as the
     /// split that brings them back, and turns faces as VertexSplit wants them. For each collapse, newest first, come the flips
-    /// after it, last first, the moves, each to where its vertex lay before, and the split. The first `ghosts` vertices of
-    /// `mesh` are ghosts; none of them was collapsed or moved. O(faces + records log(records)). Empties the log.
+    /// after it, last first, the moves, each to where its vertex lay before, and the split. No ghost of `mesh` was collapsed
+    /// or moved. O(faces + records log(records)). Empties the log.
     ///
     /// What is free is chosen so that records and base mesh take few bytes: of the two vertices of a split the one with fewer
     /// edges is the new one, moves between two splits go by vertex, and the base mesh is numbered as walk_faces goes.
-    [[nodiscard]] MultiresMesh build(const HalfEdgeMesh& mesh, std::uint32_t ghosts = 0);
+    [[nodiscard]] MultiresMesh build(const HalfEdgeMesh& mesh);
 
 private:
     struct Entry {
         HalfEdge ij = 0;  // its face comes back as (v, w, e)
         HalfEdge ji = 0;  // its face comes back as (w, v, b)
         HalfEdge anchor = 0;
-        std::uint32_t kept = 0;
-        std::uint32_t removed = 0;
-        std::uint32_t left = 0;  // kept or removed: the one whose number the mesh went on with
-        std::uint32_t steps = 0;
-        std::uint32_t least_wing = 0;  // the smaller of e and b: a ghost where one of them is
-        std::uint32_t first_flip = 0;  // of those after the collapse
-        std::uint32_t first_move = 0;
-        Vec3 kept_at = Vec3::Zero();
-        Vec3 removed_at = Vec3::Zero();
+        std::uint16_t steps = 0;        // of the split; valences are at most kValenceCeiling
+        bool is_gone_new = false;       // the vertex of ji comes back, which the mesh let go; else that of ij
+        bool is_at_border = false;      // e or b is a ghost
+        Vec3 stayed_at = Vec3::Zero();  // of the vertex that stayed; the other one lies where it lay
     };
+
+    /// How many flips and moves there were before a collapse.
+    struct Edits {
+        std::uint32_t flips = 0;
+        std::uint32_t moves = 0;
+    };
+    /// Of the last collapse.
+    [[nodiscard]] Edits last_edits() const { return edits_.empty() ? Edits{} : edits_.back(); }
+
     void keep_net_moves(const HalfEdgeMesh& mesh);
 
     std::vector<Entry> entries_;
+    std::uint32_t stayed_ = kNone;  // the vertex that the last collapse left
+    std::vector<Edits> edits_;      // of the last collapses; there were none before the others
     std::vector<HalfEdge> flips_;
     std::vector<VertexMove> moves_;        // positions are those before
     std::vector<std::uint32_t> moved_in_;  // per vertex: collapses made when it was moved last

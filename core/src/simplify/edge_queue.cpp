@@ -39,6 +39,10 @@ void EdgeQueue::clear() {
     }
 }
 
+void EdgeQueue::open_all() {
+    for (std::size_t match = 0; match < levels_[0].is_open.size(); ++match) touch(0, match);
+}
+
 void EdgeQueue::play_open_matches() {
     for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
         Level& at = levels_[level];

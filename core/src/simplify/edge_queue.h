@@ -23,6 +23,10 @@ public:
         touch(0, edge / kPlayers);
     }
 
+    /// `set` for many, from any thread, each for other edges; `open_all` must follow. \pre the edge is not there.
+    void enter(HalfEdge edge, double priority) { levels_[0].best[edge] = priority; }
+    void open_all();
+
     /// Drops the edge if it is there.
     void erase(HalfEdge edge) {
         levels_[0].best[edge] = kAbsent;

@@ -4,7 +4,10 @@
 
 namespace vsplit {
 
-HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh, std::uint32_t ghosts)
+// Finding twins takes more memory than there is left for them and the rest: it comes first.
+HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh, std::uint32_t ghosts) : HalfEdgeMesh(mesh, half_edge_twins(mesh), ghosts) {}
+
+HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh, const std::vector<HalfEdge>& twins, std::uint32_t ghosts)
     : half_edges_(mesh.faces.size() * 3),
       creases_(mesh.faces.size() * 3, 0),
       outgoing_(mesh.positions.size(), kNone),
@@ -13,7 +16,6 @@ HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh, std::uint32_t ghosts)
       changed_at_(mesh.positions.size(), 0),
       ghosts_(ghosts),
       live_faces_(mesh.face_count() - count_ghost_faces(mesh, ghosts)) {
-    const std::vector<HalfEdge> twins = half_edge_twins(mesh);
     for (HalfEdge h = 0; h < twins.size(); ++h) {
         const std::uint32_t v = vsplit::origin(mesh, h);
         half_edges_[h] = {v, twins[h]};

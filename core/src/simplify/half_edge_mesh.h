@@ -28,6 +28,9 @@ public:
 
     [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions_.size()); }
     [[nodiscard]] HalfEdge half_edge_count() const { return static_cast<HalfEdge>(half_edges_.size()); }
+    [[nodiscard]] std::uint32_t ghosts() const { return ghosts_; }
+    [[nodiscard]] bool is_ghost(std::uint32_t v) const { return v < ghosts_; }
+
     /// Visible ones: those at a ghost do not count.
     [[nodiscard]] std::uint32_t live_faces() const { return live_faces_; }
 
@@ -57,8 +60,9 @@ public:
     /// condition). O(product of valences).
     [[nodiscard]] bool pinches(HalfEdge h) const;
 
-    /// Collapses j into i, which moves to `position`. Two faces and one vertex fewer; on a boundary one of the two is a ghost's.
-    /// \pre the link condition holds for the edge. O(valence of j).
+    /// Collapses j into i, which moves to `position`. What is removed keeps its place and its half-edges their origins. Two faces
+    /// and one vertex fewer; on a boundary one of the two is a ghost's. \pre the link condition holds for the edge. O(valence of
+    /// j).
     void collapse(const EdgeStar& star, const Vec3& position);
 
     template <class Visit>
@@ -102,6 +106,7 @@ public:
     void mark_kept_flat(HalfEdge h) { creases_[h] = creases_[twin(h)] = kCrease | kKeptFlat; }
 
 private:
+    HalfEdgeMesh(const TriangleMesh& mesh, const std::vector<HalfEdge>& twins, std::uint32_t ghosts);
     void pair(HalfEdge h, HalfEdge g) {
         half_edges_[h].twin = g;
         half_edges_[g].twin = h;

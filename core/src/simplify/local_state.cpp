@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "base/release.h"
 #include "vsplit/quality/stretch.h"
 
 namespace vsplit {
@@ -42,11 +43,10 @@ LocalState initial_state(const SimplifyInput& input) {
 LocalState take_initial_state(SimplifyInput& input) {
     LocalState state = state_without_quadrics(input);
     state.quadrics = std::move(input.quadrics);
-    input.mesh = {};
-    input.normals = {};
-    input.quadrics = {};
-    input.sizes = {};
-    input.boundary_corners = {};
+    release(input.mesh);
+    release(input.normals);
+    release(input.sizes);
+    release(input.boundary_corners);
     return state;
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/release.h"
 #include "simplify/collapse_log.h"
 #include "simplify/edge_evaluator.h"
 #include "simplify/edge_queue.h"
@@ -57,8 +58,7 @@ public:
           mesh_(input_.mesh, input_.ghosts),
           state_(take_initial_state(input_)),
           queue_(mesh_.half_edge_count()),
-          out_of_reach_(mesh_.half_edge_count(), 0),
-          refusals_(mesh_.half_edge_count(), 0),
+          edges_(mesh_.half_edge_count()),
           visited_(mesh_.vertex_count(), 0),
           faces_start_(mesh_.live_faces()),
           evaluator_(mesh_, state_, policy_, input_),
@@ -67,7 +67,7 @@ public:
           creases_(mesh_, state_, crease_guard_.get(), input_.crease_cosine),
           polisher_(mesh_, state_, log_, {guard_.get(), crease_guard_.get()}, limits_of(policy_, input_)) {
         mark_creases();
-        input_.creases = {};
+        release(input_.creases);
         log_.reserve((faces_start_ - std::min(faces_start_, input_.faces_min)) / 2 + 1);
     }
 
@@ -76,17 +76,17 @@ public:
         if (!done) return done.error();
         context_.report({"simplify", 1, mesh_.live_faces()});
         let_go();
-        return log_.build(mesh_, input_.ghosts);
+        return log_.build(mesh_);
     }
 
 private:
     /// Leaves the mesh alone: the representation takes as much as the rest did.
     void let_go() {
-        state_ = {};
+        release(state_);
         queue_ = EdgeQueue(0);
         guard_ = nullptr;
-        for (std::vector<std::uint8_t>* flags : {&out_of_reach_, &refusals_}) *flags = {};
-        visited_ = {};
+        release(edges_);
+        release(visited_);
     }
 
     [[nodiscard]] static PolishLimits limits_of(const Policy& policy, const SimplifyInput& input) {
@@ -236,41 +236,34 @@ private:
 
     /// Queues an edge by its priority, or not at all.
     void settle(HalfEdge edge) {
-        if (refusals_[edge] >= kMostRefusals) return;
+        if (edges_[edge].refusals >= kMostRefusals) return;
         const Evaluation evaluation = evaluator_.rank(edge);
-        out_of_reach_[edge] = evaluation.verdict == Evaluation::Verdict::kOutOfReach ? 1 : 0;
+        edges_[edge].out_of_reach = evaluation.verdict == Evaluation::Verdict::kOutOfReach;
         evaluation.verdict == Evaluation::Verdict::kValid ? queue_.set(edge, evaluation.priority) : queue_.erase(edge);
     }
 
     /// Evaluates every edge, on all threads the context allows: each depends only on the mesh as it stands.
     [[nodiscard]] Status evaluate_all_edges() {
-        std::vector<HalfEdge> edges;
-        for (HalfEdge h = 0; h < mesh_.half_edge_count(); ++h) {
-            if (!mesh_.removed(h) && mesh_.edge_of(h) == h) edges.push_back(h);
-        }
-        std::vector<double> priorities(edges.size(), -1);
+        queue_.clear();
+        std::fill(edges_.begin(), edges_.end(), EdgeNote{});
         tbb::enumerable_thread_specific<EdgeEvaluator<Policy>> evaluators(
             [&] { return EdgeEvaluator<Policy>(mesh_, state_, policy_, input_); });
         report_evaluated(0);
-        const auto evaluate_range = [&](const tbb::blocked_range<std::size_t>& range) {
+        const auto evaluate_range = [&](const tbb::blocked_range<HalfEdge>& range) {
             if (context_.cancelled()) return;
             EdgeEvaluator<Policy>& evaluator = evaluators.local();
-            for (std::size_t n = range.begin(); n < range.end(); ++n) {
-                const Evaluation evaluation = evaluator.rank(edges[n]);
-                if (evaluation.verdict == Evaluation::Verdict::kValid) priorities[n] = evaluation.priority;
-                out_of_reach_[edges[n]] = evaluation.verdict == Evaluation::Verdict::kOutOfReach ? 1 : 0;
+            for (HalfEdge h = range.begin(); h < range.end(); ++h) {
+                if (mesh_.removed(h) || mesh_.edge_of(h) != h) continue;
+                const Evaluation evaluation = evaluator.rank(h);
+                if (evaluation.verdict == Evaluation::Verdict::kValid) queue_.enter(h, evaluation.priority);
+                edges_[h].out_of_reach = evaluation.verdict == Evaluation::Verdict::kOutOfReach;
             }
         };
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 1024), evaluate_range);
+        tbb::parallel_for(tbb::blocked_range<HalfEdge>(0, mesh_.half_edge_count(), 2048), evaluate_range);
         if (context_.cancelled()) return ExecutionContext::cancelled_error();
         report_evaluated(1);
         evaluated_ = true;
-
-        queue_.clear();
-        std::fill(refusals_.begin(), refusals_.end(), 0);
-        for (std::size_t n = 0; n < edges.size(); ++n) {
-            if (priorities[n] >= 0) queue_.set(edges[n], priorities[n]);
-        }
+        queue_.open_all();
         return Done{};
     }
 
@@ -290,7 +283,7 @@ private:
         // Evenness goes by the valences across the edge, whose changes do not reach as far as those of shape.
         assert(Policy::kExtended || evaluation.priority == queue_.priority(mesh_.edge_of(edge)));
         if (!guards_admit(star, evaluation.position)) {
-            ++refusals_[edge];
+            ++edges_[edge].refusals;
             return drop(edge);  // until its neighbourhood changes
         }
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
@@ -326,7 +319,7 @@ private:
 
     void drop_number(HalfEdge edge) {
         queue_.erase(edge);
-        out_of_reach_[edge] = 0;
+        edges_[edge].out_of_reach = false;
     }
 
     void update_faces(std::uint32_t kept) {
@@ -355,7 +348,7 @@ private:
                 if (visited_[other] == visit_ && other < v) return;  // both ends in the ring: once is enough
                 const HalfEdge edge = mesh_.edge_of(h);
                 // Neither quadric changed unless an end is k: no place came within reach.
-                if (out_of_reach_[edge] != 0 && other != k && v != k) return;
+                if (edges_[edge].out_of_reach && other != k && v != k) return;
                 prefetch(state_.quadrics[other]);
                 open_.push_back(edge);
             });
@@ -379,8 +372,12 @@ private:
     HalfEdgeMesh mesh_;
     LocalState state_;
     EdgeQueue queue_;
-    std::vector<std::uint8_t> out_of_reach_;  // of an edge: not queued, nor will it be until one of its ends moves
-    std::vector<std::uint8_t> refusals_;      // of an edge: how often the guard refused it since all edges were evaluated
+    /// What is known of an edge beside its priority, in a byte.
+    struct EdgeNote {
+        bool out_of_reach : 1 = false;  // not queued, nor will it be until one of its ends moves
+        std::uint8_t refusals : 7 = 0;  // how often the guard refused it since all edges were evaluated
+    };
+    std::vector<EdgeNote> edges_;
     CollapseLog log_;
     std::vector<std::uint32_t> visited_;  // visit_ of the last collapse that had the vertex in its ring
     std::vector<std::uint32_t> ring_;

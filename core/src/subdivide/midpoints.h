@@ -165,10 +165,10 @@ bool subdivide_round(Subdivision<Rule>& current, const Rule& rule) {
     std::size_t marked = 0;
     auto& points = current.points;
     EdgeIndex(current.faces, points.size()).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
-        if (!rule.wants(points[first->a()], points[first->b()])) return;
+        if (!rule.wants(points[first->a], points[first->b])) return;
         for (const auto* entry = first; entry != last; ++entry)
             midpoints[entry->half_edge] = static_cast<std::uint32_t>(points.size());
-        points.push_back(rule.midpoint(points[first->a()], points[first->b()]));
+        points.push_back(rule.midpoint(points[first->a], points[first->b]));
         ++marked;
     });
     if (marked > 0) cut_marked(current, midpoints, marked);
