@@ -9,7 +9,7 @@
 namespace vsplit::test {
 
 RandomEditor::RandomEditor(const TriangleMesh& mesh, std::uint32_t ghosts, std::uint64_t seed)
-    : ghosts_(ghosts), random_(seed), mesh_(mesh) {}
+    : ghosts_(ghosts), random_(seed), mesh_(mesh, ghosts) {}
 
 HalfEdge RandomEditor::any_half_edge() {
     for (;;) {

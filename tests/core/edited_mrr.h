@@ -26,7 +26,7 @@ public:
 
     /// What is left, ghosts included, in the order it had.
     [[nodiscard]] TriangleMesh complex() const;
-    [[nodiscard]] MultiresMesh build() { return log_.build(mesh_, ghosts_); }
+    [[nodiscard]] MultiresMesh build() { return log_.build(mesh_); }
 
     /// Whether the edge of h may be turned: no ghost near by, no end of valence 3, no such edge yet.
     [[nodiscard]] bool may_flip(HalfEdge h) const;

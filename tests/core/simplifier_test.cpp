@@ -55,7 +55,7 @@ public:
             while (mesh_.live_faces() >= input_.faces_min + 2 && collapse_best()) {
             }
         }
-        return log_.build(mesh_, input_.ghosts);
+        return log_.build(mesh_);
     }
 
 private:
