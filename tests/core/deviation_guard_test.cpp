@@ -236,5 +236,25 @@ TEST(DeviationGuardTest, AFaceIsTriedInItsMiddleAndAlongItsSides) {
     }
 }
 
+/// A floor and a wall that meet, and the two faces of a fin across their corner, from the floor at `reach` to the wall at
+/// `height`.
+bool admits_fin(double reach, double height, double limit) {
+    TriangleMesh corner;
+    corner.positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 1}, {0, 1, 1}};
+    corner.faces = {{0, 2, 1}, {1, 2, 3}, {0, 1, 4}, {1, 5, 4}};
+    const SurfaceIndex index = surface_index(corner);
+    DeviationGuard guard(HalfEdgeMesh(noisy_cube(2, 0, 1)), index, limit);
+    const Vec3 apex(reach, 0.5, 0), top(0, 0.5, height), foot(0, 0.5, 0);
+    // Either face is in the plane of what was there, as where a smaller fin grows.
+    const std::array<DeviationGuard::NewFace, 2> faces{{{0, apex, top, foot, {0, -1, 0}}, {1, apex, foot, top, {0, 1, 0}}}};
+    return guard.replace({}, faces);
+}
+
+TEST(DeviationGuardTest, AFinDoesNotGrowInItsOwnPlane) {
+    EXPECT_TRUE(admits_fin(0.05, 0.5, 0.1));
+    EXPECT_FALSE(admits_fin(0.5, 0.5, 0.1));
+    EXPECT_FALSE(admits_fin(0.19, 1, 0.1)) << "near in its middle, too far beside it";
+}
+
 }  // namespace
 }  // namespace vsplit::test

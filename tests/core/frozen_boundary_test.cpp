@@ -148,5 +148,26 @@ TEST(FrozenBoundaryTest, TooManyFacesAreRefusedWithASizeThatFits) {
     EXPECT_EQ(subdivide_one_to_four_inside(square(8), 4, 2000, context).error().cause, Cause::kLimitExceeded);
 }
 
+TEST(FrozenBoundaryTest, TooManyFacesOfSizesAreRefusedWithALeastSizeThatFits) {
+    const ExecutionContext context;
+    for (const std::uint32_t cells : {8U, 16U}) {
+        const TriangleMesh mesh = square(cells);
+        SizingOptions sizing;
+        sizing.spheres = {{Vec3(cells / 2, cells / 2, 0), 1, 1e-3}};
+        const auto field = [&] { return *make_size_field(mesh, sizing, {}); };
+        const auto refused = subdivide_to_sizes_inside(mesh, field(), 2000, context);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().cause, Cause::kLimitExceeded);
+        EXPECT_EQ(refused.error().field, "sizing");
+        const std::string& message = refused.error().message;
+        const std::size_t at = message.find("no size under ");
+        ASSERT_NE(at, std::string::npos) << message;
+        sizing.min_size = std::stod(message.substr(at + 14));
+        EXPECT_TRUE(subdivide_to_sizes_inside(mesh, field(), 2000, context)) << message;
+    }
+    const auto whole = subdivide_to_sizes_inside(square(8), *make_size_field(square(8), {.max_size = 1.0}, {}), 10, context);
+    EXPECT_EQ(whole.error().cause, Cause::kLimitExceeded) << "the mesh itself has more";
+}
+
 }  // namespace
 }  // namespace vsplit::test

@@ -92,6 +92,65 @@ TEST(MendHubsTest, ControlOfAConeKeepsItsBoundsInBothModes) {
     }
 }
 
+/// Faces (0, n, n + 1) over an angle, in degrees, on a cone of that height; open but where they go all around.
+TriangleMesh open_fan(std::uint32_t segments, double angle, double height) {
+    TriangleMesh mesh;
+    mesh.positions = {Vec3(0, 0, height)};
+    const bool around = angle == 360;
+    for (std::uint32_t n = 0; n <= segments - (around ? 1 : 0); ++n) {
+        const double at = angle * 3.141592653589793 / 180 * n / segments;
+        mesh.positions.emplace_back(std::cos(at), std::sin(at), 0);
+    }
+    for (std::uint32_t n = 0; n < segments; ++n) mesh.faces.push_back({0, 1 + n, around && n + 1 == segments ? 1 : 2 + n});
+    return mesh;
+}
+
+TEST(MendHubsTest, HubsOfOpenMeshesAreMendedWithinThemAndOnTheirBoundary) {
+    const ExecutionContext context;
+    for (const TriangleMesh& mesh : {open_fan(200, 360, 1), open_fan(120, 180, 0), open_fan(90, 270, 0.2), open_fan(64, 40, 0)}) {
+        SCOPED_TRACE(mesh.face_count());
+        ASSERT_FALSE(inspect(mesh).closed);
+        ASSERT_GT(hubs(mesh, 8), 0U);
+        const ControlOptions options = bounded(mesh, 8);
+        const auto mended = mend_hubs(mesh, options, context);
+        ASSERT_TRUE(mended);
+        EXPECT_EQ(hubs(mended->mesh, 8), 0U);
+        const MeshReport before = inspect(mesh), after = inspect(mended->mesh);
+        EXPECT_TRUE(require_manifold(after));
+        EXPECT_EQ(after.boundary_edges, before.boundary_edges) << "none is cut";
+        EXPECT_LE(sampled_deviation(mended->mesh, mesh, 4), 1.5 * *options.tolerance);
+        EXPECT_LE(sampled_deviation(mesh, mended->mesh, 4), 1.5 * *options.tolerance);
+        const auto result = control(mesh, {.min_stretch = 0.05, .max_valence = 8}, {}, context);
+        ASSERT_TRUE(result);
+        for (std::size_t level = 0; level <= result->mrr.levels(); level += 1 + result->mrr.levels() / 7) {
+            EXPECT_EQ(hubs(mesh_at(result->mrr, level), 8), 0U) << level;
+        }
+    }
+}
+
+TEST(MendHubsTest, AFieldOfSizesGoesOnWhereHubsAreCut) {
+    const ExecutionContext context;
+    const TriangleMesh mesh = cone(200, 1);
+    SizingOptions sizing;
+    sizing.field.assign(mesh.vertex_count(), 0.4);
+    sizing.field[0] = 0.1;  // at the tip
+    const auto result = control(mesh, {.min_stretch = 0.05, .max_valence = 8, .sizing = sizing}, {}, context);
+    ASSERT_TRUE(result);
+    const TriangleMesh shown = mesh_at(result->mrr, result->mrr.level_for(result->faces));
+    EXPECT_EQ(hubs(shown, 8), 0U);
+    for (const Violation& violation : result->violations) EXPECT_NE(violation.bound, "max_valence");
+    double longest_at_tip = 0, longest = 0;
+    for (const Triangle& t : shown.faces) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 &a = shown.positions[t[i]], &b = shown.positions[t[(i + 1) % 3]];
+            longest = std::max(longest, (a - b).norm());
+            if (std::max(a.z(), b.z()) > 0.98) longest_at_tip = std::max(longest_at_tip, (a - b).norm());
+        }
+    }
+    EXPECT_LE(longest, 0.4 * 1.05);
+    EXPECT_LE(longest_at_tip, 0.13);
+}
+
 TEST(MendHubsTest, ObeysACancel) {
     ExecutionContext context;
     context.cancel();

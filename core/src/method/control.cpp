@@ -85,15 +85,16 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
     const ControlOptions used = default_options(mesh, options);
 
-    // What mends hubs knows no boundaries, and a field of sizes is of the source's own vertices.
-    const bool may_add_vertices = report.closed && (!used.sizing || used.sizing->field.empty());
-    const std::shared_ptr<const CreasedMesh> mended = may_add_vertices ? mend_hubs(mesh, used, context) : nullptr;
     const bool extended = used.mode == Mode::kExtended;
+    const bool has_field = used.sizing && !used.sizing->field.empty();
+    const bool may_mend = extended || (report.closed && !has_field);
+    const std::shared_ptr<const CreasedMesh> mended = may_mend ? mend_hubs(mesh, used, context) : nullptr;
     const std::shared_ptr<const CreasedMesh> flipped = extended && !mended ? without_slivers(mesh, used, context) : mended;
     const TriangleMesh& coarse = flipped ? flipped->mesh : mesh;
     std::optional<SizePlan> sizes;
     if (used.sizing) {
-        Expected<SizePlan> plan = plan_sizes(coarse, *used.sizing, creases_of(mesh, flipped, used), usual_size(mesh, used));
+        const SizingOptions sizing = mended && has_field ? with_field_on(mended->mesh, mesh, *used.sizing) : *used.sizing;
+        Expected<SizePlan> plan = plan_sizes(coarse, sizing, creases_of(mesh, flipped, used), usual_size(mesh, used));
         if (!plan) return plan.error();
         sizes = *std::move(plan);
     }

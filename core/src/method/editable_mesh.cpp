@@ -100,4 +100,20 @@ std::vector<SharpEdge> EditableMesh::creases() const {
     return all;
 }
 
+std::vector<SharpEdge> with_ghosts(std::vector<SharpEdge> creases, std::uint32_t ghosts) {
+    for (SharpEdge& crease : creases) {
+        crease.a += ghosts;
+        crease.b += ghosts;
+    }
+    return creases;
+}
+
+std::vector<SharpEdge> without_ghosts(std::vector<SharpEdge> creases, std::uint32_t ghosts) {
+    for (SharpEdge& crease : creases) {
+        crease.a -= ghosts;
+        crease.b -= ghosts;
+    }
+    return creases;
+}
+
 }  // namespace vsplit

@@ -49,4 +49,8 @@ private:
     std::vector<std::uint32_t> valence_;
 };
 
+/// Creases of a mesh as those of its CappedMesh, and back.
+[[nodiscard]] std::vector<SharpEdge> with_ghosts(std::vector<SharpEdge> creases, std::uint32_t ghosts);
+[[nodiscard]] std::vector<SharpEdge> without_ghosts(std::vector<SharpEdge> creases, std::uint32_t ghosts);
+
 }  // namespace vsplit

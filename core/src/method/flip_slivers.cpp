@@ -82,14 +82,6 @@ private:
     std::vector<HalfEdge> open_;  // edges to look at, last first
 };
 
-std::vector<SharpEdge> shifted(std::vector<SharpEdge> creases, std::uint32_t by) {
-    for (SharpEdge& crease : creases) {
-        crease.a += by;
-        crease.b += by;
-    }
-    return creases;
-}
-
 }  // namespace
 
 std::shared_ptr<const CreasedMesh> flip_slivers(const TriangleMesh& mesh, const FeatureOptions& features, double gap,
@@ -97,7 +89,7 @@ std::shared_ptr<const CreasedMesh> flip_slivers(const TriangleMesh& mesh, const 
     FaceNormals normals = face_normals(mesh);
     std::vector<SharpEdge> creases = find_creases(mesh, normals, features);
     const CappedMesh capped = cap_manifold(mesh);
-    SliverFlipper flipper(capped, shifted(creases, capped.ghosts), std::move(normals), gap);
+    SliverFlipper flipper(capped, with_ghosts(creases, capped.ghosts), std::move(normals), gap);
     if (!flipper.flip_all(context)) return nullptr;
     return std::make_shared<const CreasedMesh>(
         CreasedMesh{visible_mesh(flipper.mesh().mesh(), capped.ghosts), std::move(creases), flipper.moved()});

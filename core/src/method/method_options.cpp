@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/number_text.h"
+#include "method/reachable_bounds.h"
 
 namespace vsplit {
 namespace {
@@ -116,7 +117,10 @@ template <class Options>
 Status check_on(const TriangleMesh& source, const Options& options) {
     if (Status s = check_resolved(source, options.max_deviation); !s) return s;
     if (Status s = check_features(source, options.marked_edges, options.regions); !s) return s;
-    return options.sizing ? check_sizing_on(source, *options.sizing) : Status(Done{});
+    if (options.sizing) {
+        if (Status s = check_sizing_on(source, *options.sizing); !s) return s;
+    }
+    return check_reachable(source, options);
 }
 
 /// A crease that ends freely and is shorter than this many tolerances is noise, if there is much of it. Extended mode only.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "spatial/surface_index.h"
@@ -23,6 +24,21 @@ Expected<SizePlan> plan_sizes(const TriangleMesh& mesh, const SizingOptions& siz
     Expected<SizeField> field = make_size_field(mesh, sizing, creases);
     if (!field) return field.error();
     return SizePlan{*std::move(field), usual, true};
+}
+
+SizingOptions with_field_on(const TriangleMesh& mended, const TriangleMesh& mesh, SizingOptions sizing) {
+    SizingOptions given;  // what bounds sizes beside it is found on `mended` itself
+    given.field = sizing.field;
+    given.gradation = sizing.gradation;
+    const Expected<SizeField> field = make_size_field(mesh, given, {});
+    if (!field) return sizing;
+    const SurfaceIndex index = surface_index(mesh);
+    for (std::size_t v = mesh.positions.size(); v < mended.positions.size(); ++v) {
+        const Vec3& p = mended.positions[v];
+        const double size = size_at(mesh, *field, index.closest(p).element, p);
+        sizing.field.push_back(std::isfinite(size) ? size : 0);
+    }
+    return sizing;
 }
 
 Expected<SizePlan> plan_by_curvature(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases, double tolerance,

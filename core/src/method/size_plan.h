@@ -22,6 +22,10 @@ struct SizePlan {
 [[nodiscard]] Expected<SizePlan> plan_sizes(const TriangleMesh& mesh, const SizingOptions& sizing,
                                             const std::vector<SharpEdge>& creases, double usual);
 
+/// `sizing` for `mended`, whose first vertices are those of `mesh` and whose others lie on its surface: they are given the size
+/// that its field has there, or no bound where that has none. O(faces log faces).
+[[nodiscard]] SizingOptions with_field_on(const TriangleMesh& mended, const TriangleMesh& mesh, SizingOptions sizing);
+
 /// The plan where nothing is asked for: faces get smaller than `usual` where the surface bends, so that a chord stays within half
 /// of `tolerance` of it, but no more than are worth waiting for. O(faces log faces + face_budget).
 [[nodiscard]] Expected<SizePlan> plan_by_curvature(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,

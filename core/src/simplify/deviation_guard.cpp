@@ -1,11 +1,24 @@
 #include "simplify/deviation_guard.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace vsplit {
 namespace {
+
+constexpr double kStep = 32;         // limits, from one sample of a long line to the next
+constexpr double kFinStep = 1;       // the same along the edge of a fin
+constexpr double kFinCosine = -0.8;  // of the normals on either side of that: nearly back to back
+
+/// As long as twice the area.
+Vec3 normal_of(const DeviationGuard::NewFace& f) { return (f.b - f.apex).cross(f.c - f.apex); }
+
+bool makes_fin(const Vec3& normal, const Vec3& other) {
+    const double product = normal.dot(other);
+    return product < 0 && product * product > kFinCosine * kFinCosine * normal.squaredNorm() * other.squaredNorm();
+}
 
 /// A face at v that is no ghost's.
 std::uint32_t visible_face(const HalfEdgeMesh& mesh, const Border& border, std::uint32_t v) {
@@ -44,10 +57,10 @@ bool DeviationGuard::stays_in_plane(const NewFace& f) const {
 /// Points that are tried one after the other are mostly near the same face of the source.
 bool DeviationGuard::is_near_source(const Vec3& point) { return source_.within(point, limit_, near_face_); }
 
-bool DeviationGuard::inside_reaches_source(const NewFace& f) {
+bool DeviationGuard::inside_reaches_source(const NewFace& f, bool stays, double step) {
     const Vec3 side = (f.b + f.c) / 2;
-    const int steps = steps_along(std::max((f.apex - f.b).norm(), (f.apex - side).norm()));
-    if (steps == 0 && stays_in_plane(f)) return true;
+    const int steps = steps_along(std::max((f.apex - f.b).norm(), (f.apex - side).norm()), step);
+    if (steps == 0 && stays) return true;
     if (!is_near_source((f.apex + f.b) / 2) || !is_near_source((f.apex + f.b + f.c) / 3)) return false;
     for (int n = 0; n < steps; ++n) {
         const double share = (n + 0.5) / steps;
@@ -56,21 +69,33 @@ bool DeviationGuard::inside_reaches_source(const NewFace& f) {
     return true;
 }
 
-/// Samples along so long a line beside those that every face has.
-int DeviationGuard::steps_along(double length) const {
-    constexpr double kLong = 32;  // limits
+/// Samples along so long a line beside those that every face has, one each `step` limits; none where it is no longer.
+int DeviationGuard::steps_along(double length, double step) const {
     constexpr double kMostSteps = 32;
-    return length > kLong * limit_ ? static_cast<int>(std::min(std::ceil(length / (kLong * limit_)), kMostSteps)) : 0;
+    return length > step * limit_ ? static_cast<int>(std::min(std::ceil(length / (step * limit_)), kMostSteps)) : 0;
 }
 
+/// A face that stays in its plane may yet grow beyond what was there: over the side it shares with one that leaves its own plane,
+/// and where two lie back to back, as those of a fin do. That side is the first of a face, which belongs to it and the one
+/// before.
 bool DeviationGuard::reaches_source(std::span<const NewFace> faces) {
+    if (faces.empty()) return true;
     bool apex_tried = false;
+    const NewFace* before = &faces.back();
+    bool before_stays = stays_in_plane(*before);
+    Vec3 normal_before = normal_of(*before);
     for (const NewFace& f : faces) {
-        if (!apex_tried && !stays_in_plane(f)) {
+        const bool stays = stays_in_plane(f);
+        if (!apex_tried && !stays) {
             if (!is_near_source(f.apex)) return false;
             apex_tried = true;
         }
-        if (!inside_reaches_source(f)) return false;
+        const Vec3 normal = normal_of(f);
+        const bool fin = makes_fin(normal, normal_before);
+        if (!inside_reaches_source(f, stays && before_stays && !fin, fin ? kFinStep : kStep)) return false;
+        before = &f;
+        before_stays = stays;
+        normal_before = normal;
     }
     return true;
 }

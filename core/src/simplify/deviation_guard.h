@@ -17,8 +17,8 @@ namespace vsplit {
 ///
 /// Points of the source, the vertices of the dense mesh, are kept at a face that is near: where faces are replaced, theirs go
 /// over to the new ones, as in the error control of Klein, Liebich and Strasser (Mesh Reduction with Error Control, 1996). New
-/// faces are tried at their apex, their middle and the middle of one side, long ones at more places. Both are samples: the limit
-/// is to be a little under what is promised, and the result is measured afterwards (`measure_deviation`).
+/// faces are tried at their apex, their middle and the middle of one side, long ones and fins at more places. Both are samples:
+/// the limit is to be a little under what is promised, and the result is measured afterwards (`measure_deviation`).
 class DeviationGuard {
 public:
     /// A face as it would be. Its side (b, c) was there before, in a face of normal `old_normal` (unit, or zero when not known):
@@ -55,9 +55,9 @@ private:
 
     [[nodiscard]] Nearest nearest_face(const Vec3& point, std::size_t guess) const;
     [[nodiscard]] bool stays_in_plane(const NewFace& f) const;
-    [[nodiscard]] int steps_along(double length) const;
+    [[nodiscard]] int steps_along(double length, double step) const;
     [[nodiscard]] bool is_near_source(const Vec3& point);
-    [[nodiscard]] bool inside_reaches_source(const NewFace& f);
+    [[nodiscard]] bool inside_reaches_source(const NewFace& f, bool stays, double step);
     [[nodiscard]] bool reaches_source(std::span<const NewFace> faces);
     [[nodiscard]] bool reached_by_source(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces);
 

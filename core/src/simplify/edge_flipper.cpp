@@ -143,7 +143,8 @@ bool EdgeFlipper::mend(std::uint32_t face) {
     open_ = {3 * face, 3 * face + 1, 3 * face + 2};
     const bool flipped = flip_best([this](const Quad& quad) {
         const Excess before = quad.excess_before(limits_.bounds), after = quad.excess_after(limits_.bounds);
-        return after.lessens(before) ? before.sum - after.sum - kLeastGain : 0.0;
+        if (!after.lessens(before)) return 0.0;
+        return after.none() ? before.sum : before.sum - after.sum - kLeastGain;  // the last step may be as small as it likes
     });
     open_.clear();
     return flipped;

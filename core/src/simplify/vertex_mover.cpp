@@ -125,17 +125,17 @@ void VertexMover::relax(std::uint32_t v) {
 
 void VertexMover::lift(std::uint32_t v, double goal) {
     if (!gather_star(v) || shape_.stretch_min >= goal) return;
-    static_cast<void>(search(v, [this](const Vec3&) { return shape_.stretch_min; }));
+    static_cast<void>(search(v, [this](const Vec3&) { return shape_.stretch_min; }, 1));
 }
 
 bool VertexMover::mend(std::uint32_t v) {
     if (!gather_star(v)) return false;
     const auto kept = [this](const Vec3& position) { return -star_.excess(limits_.bounds, position).sum; };
-    return kept(mesh_.position(v)) < 0 && search(v, kept);
+    return kept(mesh_.position(v)) < 0 && search(v, kept, 0);
 }
 
 template <class Value>
-bool VertexMover::search(std::uint32_t v, Value value_at) {
+bool VertexMover::search(std::uint32_t v, Value value_at, double goal) {
     Vec3 normal = Vec3::Zero();
     for (std::size_t t = 0; t < star_.size(); ++t) normal += star_.old_normal(t);
     const Vec3 u = normal.unitOrthogonal();
@@ -150,7 +150,7 @@ bool VertexMover::search(std::uint32_t v, Value value_at) {
             const Vec3 place = project_to_minimum(quadric_, along_boundary(best, best + step * (x * u + y * w)));
             if (!admits(place)) continue;
             const double value = value_at(place + limits_.centre);
-            if (!(value > most + kLeastGain)) continue;
+            if (!(value > most + kLeastGain || (value >= goal && most < goal))) continue;
             most = value;
             best = place;
             better = true;

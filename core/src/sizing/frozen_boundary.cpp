@@ -76,9 +76,17 @@ auto point_of(const TriangleMesh& mesh, const InsideSize& rule) {
     return [&](std::uint32_t v) { return rule.point(mesh, v); };
 }
 
-std::uint64_t predict_inside(const TriangleMesh& mesh, double max_edge, std::uint64_t limit, const ExecutionContext* context) {
-    const InsideSize rule(mesh, max_edge);
+/// With no size under `least`; `field`: null for none.
+std::uint64_t predict_inside(const TriangleMesh& mesh, double least, const SizeField* field, std::uint64_t limit,
+                             const ExecutionContext* context) {
+    InsideSize rule(mesh, least);
+    rule.field = field;
     return count_pieces(mesh, rule, point_of(mesh, rule), limit, context);
+}
+
+double fitting_inside(const TriangleMesh& mesh, const SizeField* field, std::uint64_t limit, const ExecutionContext& context) {
+    return fitting_length(bounding_box(mesh).diagonal(), limit,
+                          [&](double least) { return predict_inside(mesh, least, field, limit, &context); });
 }
 
 }  // namespace
@@ -90,8 +98,9 @@ Expected<SubdividedMesh> subdivide_to_size_inside(const TriangleMesh& mesh, doub
     const std::uint64_t predicted = count_pieces(mesh, rule, point_of(mesh, rule), limit.most, &context);
     if (context.cancelled()) return ExecutionContext::cancelled_error();
     if (predicted > limit.most) {
-        const auto count = [&](double length) { return predict_inside(mesh, length, limit.most, &context); };
-        return too_many_faces(max_edge, limit.most, fitting_length(bounding_box(mesh).diagonal(), limit.most, count));
+        const double fitting = fitting_inside(mesh, nullptr, limit.most, context);
+        if (context.cancelled()) return ExecutionContext::cancelled_error();
+        return too_many_faces(max_edge, limit.most, fitting);
     }
     if (Status may = limit.check(predicted); !may) return may.error();
     return subdivide_by(mesh, rule, point_of(mesh, rule), predicted, context);
@@ -99,15 +108,15 @@ Expected<SubdividedMesh> subdivide_to_size_inside(const TriangleMesh& mesh, doub
 
 Expected<SubdividedMesh> subdivide_to_sizes_inside(const TriangleMesh& mesh, const SizeField& field, const FaceLimit& limit,
                                                    const ExecutionContext& context) {
+    if (Status fits = check_subdivision_to_sizes(mesh, limit.most); !fits) return fits.error();
     InsideSize rule(mesh, 0);
     rule.field = &field;
     const std::uint64_t predicted = count_pieces(mesh, rule, point_of(mesh, rule), limit.most, &context);
     if (context.cancelled()) return ExecutionContext::cancelled_error();
     if (predicted > limit.most) {
-        return Error{Cause::kLimitExceeded,
-                     "subdividing to these sizes makes more than " + std::to_string(limit.most) +
-                         " faces, the limit; a larger min_size fits",
-                     "sizing"};
+        const double fitting = fitting_inside(mesh, &field, limit.most, context);
+        if (context.cancelled()) return ExecutionContext::cancelled_error();
+        return too_many_faces_of_sizes(limit.most, fitting);
     }
     if (Status may = limit.check(predicted); !may) return may.error();
     return subdivide_by(mesh, rule, point_of(mesh, rule), predicted, context);

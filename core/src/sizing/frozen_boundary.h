@@ -19,7 +19,7 @@ namespace vsplit {
 /// As subdivide_to_sizes, but edges of an open boundary are never split, and edges near one that is longer than the field allows
 /// may be longer as above.
 ///
-/// Stage "subdivide". \pre `field` was made for `mesh`. \return as subdivide_to_sizes, without a size that fits.
+/// Stage "subdivide". \pre `field` was made for `mesh`. \return as subdivide_to_sizes.
 [[nodiscard]] Expected<SubdividedMesh> subdivide_to_sizes_inside(const TriangleMesh& mesh, const SizeField& field,
                                                                  const FaceLimit& limit, const ExecutionContext& context);
 

@@ -9,6 +9,7 @@
 
 #include "base/number_text.h"
 #include "features/neighbourhood.h"
+#include "subdivide/face_limit.h"
 #include "subdivide/midpoints.h"
 
 namespace vsplit {
@@ -194,20 +195,13 @@ std::uint64_t predict_subdivision(const TriangleMesh& mesh, const SizeField& fie
 
 Expected<SubdividedMesh> subdivide_to_sizes(const TriangleMesh& mesh, const SizeField& field, const FaceLimit& limit,
                                             const ExecutionContext& context) {
-    if (mesh.face_count() > limit.most) {
-        return Error{Cause::kLimitExceeded,
-                     "the mesh has " + std::to_string(mesh.face_count()) + " faces; the limit is " + std::to_string(limit.most),
-                     "sizing"};
-    }
+    if (Status fits = check_subdivision_to_sizes(mesh, limit.most); !fits) return fits.error();
     const FieldSize rule{field, 0};
     const std::uint64_t predicted = predict_with(mesh, rule, limit.most, &context);
     if (predicted > limit.most) {
         const double fitting = fitting_min_size(mesh, field, limit.most, context);
         if (context.cancelled()) return ExecutionContext::cancelled_error();
-        return Error{Cause::kLimitExceeded,
-                     "subdividing to these sizes makes more than " + std::to_string(limit.most) +
-                         " faces, the limit; with no size under " + number_text(fitting) + " (min_size) it fits",
-                     "sizing"};
+        return too_many_faces_of_sizes(limit.most, fitting);
     }
     if (context.cancelled()) return ExecutionContext::cancelled_error();
     if (Status may = limit.check(predicted); !may) return may.error();

@@ -9,6 +9,14 @@ namespace vsplit {
 namespace {
 
 constexpr std::uint32_t kMaxTimes = 12;
+constexpr double kRoundedUp = 1 + 1e-5;  // six digits are written, which must not be too few
+
+Status check_as_it_is(const TriangleMesh& mesh, std::uint32_t face_limit, const char* field) {
+    if (mesh.face_count() <= face_limit) return Done{};
+    return Error{Cause::kLimitExceeded,
+                 "the mesh has " + std::to_string(mesh.face_count()) + " faces; the limit is " + std::to_string(face_limit),
+                 field};
+}
 
 }  // namespace
 
@@ -17,20 +25,25 @@ Status check_subdivision(const TriangleMesh& mesh, double max_edge, std::uint32_
         return Error{Cause::kInvalidOption, "the subdivision size is " + number_text(max_edge) + "; a positive length is needed",
                      "subdivision_size"};
     }
-    if (mesh.face_count() > face_limit) {
-        return Error{Cause::kLimitExceeded,
-                     "the mesh has " + std::to_string(mesh.face_count()) + " faces; the limit is " + std::to_string(face_limit),
-                     "subdivision_size"};
-    }
-    return Done{};
+    return check_as_it_is(mesh, face_limit, "subdivision_size");
+}
+
+Status check_subdivision_to_sizes(const TriangleMesh& mesh, std::uint32_t face_limit) {
+    return check_as_it_is(mesh, face_limit, "sizing");
 }
 
 Error too_many_faces(double max_edge, std::uint32_t face_limit, double fitting) {
-    constexpr double kRoundedUp = 1 + 1e-5;  // six digits are written, which must not be too few
     return {Cause::kLimitExceeded,
             "subdividing to edges of " + number_text(max_edge) + " makes more than " + std::to_string(face_limit) +
                 " faces, the limit; a subdivision size of " + number_text(kRoundedUp * fitting) + " fits",
             "subdivision_size"};
+}
+
+Error too_many_faces_of_sizes(std::uint32_t face_limit, double fitting) {
+    return {Cause::kLimitExceeded,
+            "subdividing to these sizes makes more than " + std::to_string(face_limit) +
+                " faces, the limit; with no size under " + number_text(kRoundedUp * fitting) + " (min_size) it fits",
+            "sizing"};
 }
 
 Status check_times(const TriangleMesh& mesh, std::uint32_t times, std::uint32_t face_limit) {

@@ -93,7 +93,9 @@ struct MethodLimits {
 [[nodiscard]] Status check_options(const ImproveOptions& options);
 [[nodiscard]] Status check_options(const ControlOptions& options);
 
-/// What only the source can tell: whether marked_edges, regions and sizing.field fit it. \return INVALID_OPTION. O(faces).
+/// What only the source can tell: whether marked_edges, regions and sizing.field fit it, max_deviation is above what its
+/// coordinates resolve, and its shape leaves room for min_size, max_valence and, with freeze_boundary, max_size. \pre `source` is
+/// manifold, `options` were checked. \return INVALID_OPTION. O(faces).
 [[nodiscard]] Status check_options_on(const TriangleMesh& source, const ImproveOptions& options);
 [[nodiscard]] Status check_options_on(const TriangleMesh& source, const ControlOptions& options);
 
