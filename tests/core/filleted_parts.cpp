@@ -1,0 +1,138 @@
+#include "tests/core/filleted_parts.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "repair/loop_triangulation.h"
+
+namespace vsplit::test {
+namespace {
+
+using Point = Eigen::Vector2d;
+using Ring = std::vector<std::uint32_t>;
+
+/// Adds the points of an arc with both its ends.
+void add_arc(std::vector<Point>& points, const Point& centre, double radius, double from, double to, std::uint32_t strips) {
+    for (std::uint32_t i = 0; i <= strips; ++i) {
+        const double angle = (from + (to - from) * i / strips) * std::numbers::pi / 180;
+        points.push_back(centre + radius * Point(std::cos(angle), std::sin(angle)));
+    }
+}
+
+/// The prism over a polygon that runs counter-clockwise.
+TriangleMesh extruded(const std::vector<Point>& profile, double length) {
+    TriangleMesh mesh;
+    const auto n = static_cast<std::uint32_t>(profile.size());
+    for (const double z : {0.0, length}) {
+        for (const Point& p : profile) mesh.positions.emplace_back(p.x(), p.y(), z);
+    }
+    const auto everywhere = [](std::uint32_t, std::uint32_t) { return true; };
+    for (const Triangle& t : triangulate_loop({mesh.positions.data(), n}, everywhere)) {
+        mesh.faces.push_back({t[0], t[2], t[1]});
+        mesh.faces.push_back({n + t[0], n + t[1], n + t[2]});
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t k = (i + 1) % n;
+        mesh.faces.push_back({i, k, n + k});
+        mesh.faces.push_back({i, n + k, n + i});
+    }
+    return mesh;
+}
+
+class TurnedPlate {
+public:
+    explicit TurnedPlate(std::uint32_t around) : around_(around) {
+        for (const double z : {0.0, -5.0}) {
+            for (const Point& p : {Point(30, 30), Point(0, 30), Point(0, 0), Point(30, 0)})
+                mesh_.positions.emplace_back(p.x(), p.y(), z);
+        }
+        for (std::uint32_t i = 0; i < 4; ++i) wall(4 + (i + 1) % 4, (i + 1) % 4, 4 + i, i);
+    }
+
+    /// Turns (distance from the axis, height) points around it: from the plate's top on.
+    TriangleMesh build(const std::vector<Point>& profile, bool through) {
+        Ring last = ring(profile.front());
+        plane(last, 0, false);
+        for (std::size_t i = 1; i < profile.size(); ++i) {
+            const Ring here = ring(profile[i]);
+            for (std::uint32_t k = 0; k < around_; ++k) wall(last[k], last[(k + 1) % around_], here[k], here[(k + 1) % around_]);
+            last = here;
+        }
+        if (through) {
+            plane(last, 4, true);
+            return std::move(mesh_);
+        }
+        for (std::uint32_t k = 1; k + 1 < around_; ++k) face(last[0], last[k], last[k + 1], false);
+        face(4, 5, 6, true);
+        face(4, 6, 7, true);
+        return std::move(mesh_);
+    }
+
+private:
+    void face(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool turned) {
+        mesh_.faces.push_back(turned ? Triangle{a, c, b} : Triangle{a, b, c});
+    }
+
+    void wall(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        face(a, b, c, false);
+        face(b, d, c, false);
+    }
+
+    Ring ring(const Point& at) {
+        Ring all;
+        for (std::uint32_t k = 0; k < around_; ++k) {
+            const double angle = 2 * std::numbers::pi * k / around_;
+            all.push_back(mesh_.vertex_count());
+            mesh_.positions.emplace_back(15 + at.x() * std::cos(angle), 15 + at.x() * std::sin(angle), at.y());
+        }
+        return all;
+    }
+
+    /// The square of the corners from `first` on around a ring: a fan from each.
+    void plane(const Ring& ring, std::uint32_t first, bool turned) {
+        const std::uint32_t n = around_;
+        for (std::uint32_t k = 0; k < n; ++k) face(ring[k], first + 4 * k / n, ring[(k + 1) % n], turned);
+        for (std::uint32_t q = 0; q < 4; ++q) face(first + q, first + (q + 1) % 4, ring[(q + 1) * n / 4 % n], turned);
+    }
+
+    std::uint32_t around_;
+    TriangleMesh mesh_;
+};
+
+}  // namespace
+
+TriangleMesh rounded_block(double radius, std::uint32_t strips, double length) {
+    std::vector<Point> profile{{0, 0}, {20, 0}};
+    if (radius > 0) {
+        add_arc(profile, {20 - radius, 10 - radius}, radius, 0, 90, strips);
+    } else {
+        profile.emplace_back(20, 10);
+    }
+    profile.emplace_back(0, 10);
+    return extruded(profile, length);
+}
+
+TriangleMesh rounded_angle(double radius, std::uint32_t strips, double length) {
+    std::vector<Point> profile{{0, 0}, {20, 0}, {20, 5}};
+    add_arc(profile, {5 + radius, 5 + radius}, radius, 270, 180, strips);
+    profile.emplace_back(5, 20);
+    profile.emplace_back(0, 20);
+    return extruded(profile, length);
+}
+
+TriangleMesh boss_with_rounded_foot(double radius, std::uint32_t strips, std::uint32_t around) {
+    std::vector<Point> profile;
+    add_arc(profile, {6 + radius, radius}, radius, 270, 180, strips);
+    profile.emplace_back(6, 8);
+    return TurnedPlate(around).build(profile, false);
+}
+
+TriangleMesh hole_with_rounded_mouth(double radius, std::uint32_t strips, std::uint32_t around) {
+    std::vector<Point> profile;
+    add_arc(profile, {6 + radius, -radius}, radius, 90, 180, strips);
+    profile.emplace_back(6, -5);
+    return TurnedPlate(around).build(profile, true);
+}
+
+}  // namespace vsplit::test
