@@ -183,16 +183,45 @@ TEST(FilletsTest, OneThatEndsOnABentSurfaceIsKept) {
     EXPECT_EQ(result.mesh, mesh);
 }
 
-TEST(FilletsTest, FindsBothRingsOfTheBracket) {
+TEST(FilletsTest, FindsAllThatTheBracketWasMadeWith) {
     const auto read = read_mesh_file(test::data_file("bracket.stl"), {});
     ASSERT_TRUE(read) << read.error().message;
     const std::vector<ShapeFeature> found = fillets_of(read->mesh);
-    ASSERT_EQ(found.size(), 2U);
+    ASSERT_EQ(found.size(), 6U);  // two rings of radius 3 at the boss, four corners of 14
+    std::vector<ShapeFeature> rings;
     for (const ShapeFeature& f : found) {
-        EXPECT_NEAR(f.diameter, 6, 0.06);
-        EXPECT_NEAR(std::abs(f.axis.x()), 1, 1e-6);
+        if (f.diameter > 10) {
+            EXPECT_NEAR(f.diameter, 28, 0.01);
+            EXPECT_NEAR(f.depth, 14, 1e-4);
+            continue;
+        }
+        EXPECT_NEAR(f.diameter, 6, 0.001);
+        EXPECT_NEAR(std::abs(f.axis.x()), 1, 1e-5);
+        EXPECT_LT((f.centre.tail<2>() - Eigen::Vector2d(50, 88)).norm(), 1e-3);
+        rings.push_back(f);
     }
-    expect_all_removed(read->mesh, without(read->mesh, found), 2);
+    ASSERT_EQ(rings.size(), 2U);
+    const FeaturelessMesh result = without(read->mesh, rings);
+    EXPECT_EQ(result.removed.size(), 2U);
+    for (const KeptFeature& kept : result.kept) ADD_FAILURE() << kept.reason;
+    expect_rest_is_the_same(read->mesh, result);
+    EXPECT_TRUE(inspect(result.mesh).closed);
+    EXPECT_EQ(inspect(result.mesh).genus, inspect(read->mesh).genus);
+    EXPECT_EQ(fillets_of(result.mesh).size(), 4U);
+}
+
+TEST(FilletsTest, FindsAllThatTheCrankshaftWasMadeWith) {
+    const auto read = read_mesh_file(test::data_file("crankshaft.stl"), {});
+    ASSERT_TRUE(read) << read.error().message;
+    std::size_t of_journals = 0, of_flange = 0;
+    for (const ShapeFeature& f : fillets_of(read->mesh)) {
+        of_journals += std::abs(f.diameter - 7) < 0.001 ? 1 : 0;
+        of_flange += std::abs(f.diameter - 4) < 0.001 ? 1 : 0;
+        EXPECT_EQ(f.sides[0].front(), f.sides[0].back());
+        EXPECT_NEAR(std::abs(f.axis.z()), 1, 1e-5);
+    }
+    EXPECT_EQ(of_journals, 17U);
+    EXPECT_EQ(of_flange, 2U);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastTurn = 20 * kDegree, kMostTurn = 150 * kDegree;  // from one side to the other
-constexpr double kOneRadius = 0.08;  // on no cylinder or torus: share of the middle radius that sections may be off it
-constexpr std::size_t kFewEdges = 3;  // and so many at a side say nothing
+constexpr double kOneRadius = 0.08;   // on no cylinder or torus: share of the middle radius that sections may be off it
+constexpr std::size_t kFewEdges = 3;  // so many at a side of a run that bends say nothing: any surface has some
 constexpr double kTangent = 0.75;    // most bend at the sides over that between strips: an arc on its tangent has a half
 constexpr double kAlongSide = 0.7;   // cosine to the run of an edge at the side; of one at the end it is less
 
@@ -69,7 +69,9 @@ private:
     std::optional<ShapeFeature> fillet_of(const Tube& tube, const Candidate& candidate) const {
         const std::optional<Sides> sides = sides_of(candidate);
         if (!sides) return {};
-        const std::optional<double> radius = candidate.surface ? candidate.surface->radius : middle_radius(tube, *sides);
+        const bool bends = !candidate.surface || candidate.surface->out > 0;
+        if (bends && std::min(sides->sides[0].size(), sides->sides[1].size()) <= kFewEdges) return {};
+        const std::optional<double> radius = candidate.surface ? candidate.surface->radius : middle_radius(tube);
         if (!radius) return {};
         const double length = (length_of(sides->sides[0]) + length_of(sides->sides[1])) / 2;
         const double width = area_of(candidate.faces) / length;
@@ -143,8 +145,7 @@ private:
     }
 
     /// Of a run on no line or circle, by its sections.
-    std::optional<double> middle_radius(const Tube& tube, const Sides& sides) const {
-        if (std::min(sides.sides[0].size(), sides.sides[1].size()) <= kFewEdges) return {};
+    static std::optional<double> middle_radius(const Tube& tube) {
         std::vector<double> radii;
         for (const TubeSection& s : tube.sections) radii.push_back(s.radius);
         std::sort(radii.begin(), radii.end());

@@ -151,13 +151,17 @@ std::optional<TubeSurface> fit_surface(const TriangleMesh& mesh, const Tube& tub
 std::vector<std::uint32_t> faces_on(const TubeSurface& surface, const TriangleMesh& mesh, const FaceNormals& normals,
                                     const std::vector<HalfEdge>& twin, const Tube& tube, double most_bend) {
     std::set<std::uint32_t> found(tube.faces.begin(), tube.faces.end());
+    const auto is_enclosed = [&](std::uint32_t f) {  // a sliver may look elsewhere
+        return found.count(face_of(twin[3 * f])) + found.count(face_of(twin[3 * f + 1])) + found.count(face_of(twin[3 * f + 2])) == 3;
+    };
     std::vector<std::uint32_t> open = tube.faces;
     while (!open.empty()) {
         const std::uint32_t f = open.back();
         open.pop_back();
         for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
             const std::uint32_t beside = face_of(twin[h]);
-            if (found.count(beside) > 0 || !lies_on(surface, mesh, normals, beside, most_bend)) continue;
+            if (found.count(beside) > 0) continue;
+            if (!lies_on(surface, mesh, normals, beside, most_bend) && !is_enclosed(beside)) continue;
             found.insert(beside);
             open.push_back(beside);
         }
