@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "repair/loop_triangulation.h"
@@ -133,6 +134,44 @@ TriangleMesh hole_with_rounded_mouth(double radius, std::uint32_t strips, std::u
     add_arc(profile, {6 + radius, -radius}, radius, 90, 180, strips);
     profile.emplace_back(6, -5);
     return TurnedPlate(around).build(profile, true);
+}
+
+TriangleMesh rounded_box(const Vec3& sides, double radius, std::uint32_t strips) {
+    // A globe whose octants are drawn apart: between them come strips and planes.
+    TriangleMesh mesh;
+    const Vec3 apart = sides / 2 - Vec3::Constant(radius);
+    std::map<std::array<long, 3>, std::uint32_t> places;
+    const auto vertex = [&](std::uint32_t row, std::uint32_t column) {
+        const std::uint32_t per_quarter = strips + 1;
+        const double up = (row / per_quarter == 0 ? -90.0 : 0) + 90.0 * (row % per_quarter) / strips;
+        const std::uint32_t quarter = column / per_quarter % 4;
+        const double turn = 90.0 * quarter + 90.0 * (column % per_quarter) / strips;
+        const double latitude = up * std::numbers::pi / 180, longitude = turn * std::numbers::pi / 180;
+        const Vec3 out(std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude), std::sin(latitude));
+        const Vec3 octant(quarter == 0 || quarter == 3 ? 1 : -1, quarter < 2 ? 1 : -1, row / per_quarter == 0 ? -1 : 1);
+        const Vec3 p = octant.cwiseProduct(apart) + radius * out;
+        const auto [found, fresh] =
+            places.try_emplace({std::lround(1e6 * p.x()), std::lround(1e6 * p.y()), std::lround(1e6 * p.z())}, mesh.vertex_count());
+        if (fresh) mesh.positions.push_back(p);
+        return found->second;
+    };
+    const auto face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (a != b && b != c && c != a) mesh.faces.push_back({a, b, c});
+    };
+    const std::uint32_t rows = 2 * (strips + 1), columns = 4 * (strips + 1);
+    for (std::uint32_t r = 0; r + 1 < rows; ++r) {
+        for (std::uint32_t c = 0; c < columns; ++c) {
+            face(vertex(r, c), vertex(r, c + 1), vertex(r + 1, c + 1));
+            face(vertex(r, c), vertex(r + 1, c + 1), vertex(r + 1, c));
+        }
+    }
+    for (const std::uint32_t r : {0U, rows - 1}) {
+        std::array<std::uint32_t, 4> corners{};
+        for (std::uint32_t q = 0; q < 4; ++q) corners[r == 0 ? 3 - q : q] = vertex(r, q * (strips + 1));
+        face(corners[0], corners[1], corners[2]);
+        face(corners[0], corners[2], corners[3]);
+    }
+    return mesh;
 }
 
 }  // namespace vsplit::test

@@ -20,4 +20,7 @@ namespace vsplit::test {
 /// The same plate with a through hole of radius 6, its upper mouth rounded.
 [[nodiscard]] TriangleMesh hole_with_rounded_mouth(double radius, std::uint32_t strips, std::uint32_t around);
 
+/// A box of these sides around the origin whose edges and corners are all round.
+[[nodiscard]] TriangleMesh rounded_box(const Vec3& sides, double radius, std::uint32_t strips);
+
 }  // namespace vsplit::test

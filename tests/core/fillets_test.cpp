@@ -157,6 +157,29 @@ TEST(FilletsTest, ADiameterTakesSmallOnes) {
     EXPECT_EQ(one->removed.size(), 1U);
 }
 
+TEST(FilletsTest, ADiameterTakesTheKindsAskedFor) {
+    const auto read = read_mesh_file(test::data_file("bracket.stl"), {});
+    ASSERT_TRUE(read) << read.error().message;
+    const auto all = list_features(read->mesh);
+    ASSERT_TRUE(all);
+    const ExecutionContext context;
+    for (const bool holes : {true, false}) {
+        FeatureRemoval removal;
+        removal.max_diameter = 6.5;
+        removal.kinds = holes ? std::vector{Kind::kThroughHole, Kind::kBlindHole} : std::vector{Kind::kFillet};
+        const auto result = remove_features(read->mesh, removal, context);
+        ASSERT_TRUE(result) << result.error().message;
+        EXPECT_EQ(result->removed.size(), holes ? 6U : 2U);
+        for (const std::uint32_t id : result->removed) EXPECT_EQ((*all)[id].kind == Kind::kFillet, !holes);
+    }
+    FeatureRemoval alone;
+    alone.ids = {0};
+    alone.kinds = {Kind::kFillet};
+    const auto refused = remove_features(read->mesh, alone, context);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().field, "kinds");
+}
+
 TEST(FilletsTest, RegionsStayOnTheirSurfaces) {
     TriangleMesh mesh = test::rounded_block(2, 8, 40);
     mesh.regions.resize(mesh.faces.size());
@@ -169,6 +192,21 @@ TEST(FilletsTest, RegionsStayOnTheirSurfaces) {
     ASSERT_EQ(result.removed.size(), 1U);
     for (std::uint32_t f = 0; f < result.mesh.face_count(); ++f)
         EXPECT_EQ(result.mesh.regions[f], on_end(result.mesh, f) ? 3U : 8U) << f;
+}
+
+TEST(FilletsTest, ARoundedBoxHasTwelveThatEndOnItsRoundCorners) {
+    const TriangleMesh mesh = test::rounded_box({30, 20, 15}, 3, 6);
+    const std::vector<ShapeFeature> found = fillets_of(test::shuffled(mesh, 3));
+    ASSERT_EQ(found.size(), 12U);
+    double length = 0;
+    for (const ShapeFeature& f : found) {
+        EXPECT_NEAR(f.diameter, 6, 1e-9);
+        length += f.depth;
+    }
+    EXPECT_NEAR(length, 4 * (24 + 14 + 9), 1e-9);
+    const FeaturelessMesh result = without(mesh, fillets_of(mesh));
+    EXPECT_EQ(result.kept.size(), 12U);
+    EXPECT_EQ(result.mesh, mesh);
 }
 
 TEST(FilletsTest, OneThatEndsOnABentSurfaceIsKept) {

@@ -16,6 +16,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastTurn = 20 * kDegree, kMostTurn = 150 * kDegree;  // from one side to the other
 constexpr double kOneRadius = 0.08;   // on no cylinder or torus: share of the middle radius that sections may be off it
 constexpr std::size_t kFewEdges = 3;  // so many at a side of a run that bends say nothing: any surface has some
+constexpr double kLittleMore = 1.5;   // times the faces of a tube
 constexpr double kTangent = 0.75;    // most bend at the sides over that between strips: an arc on its tangent has a half
 constexpr double kAlongSide = 0.7;   // cosine to the run of an edge at the side; of one at the end it is less
 
@@ -45,23 +46,30 @@ public:
         std::stable_sort(tubes.begin(), tubes.end(), [](const Tube& l, const Tube& r) { return l.faces.size() > r.faces.size(); });
         for (const Tube& tube : tubes) {
             if (std::all_of(tube.faces.begin(), tube.faces.end(), [&](std::uint32_t f) { return tried_[f]; })) continue;
-            const Candidate candidate = candidate_of(tube);
-            for (const std::uint32_t f : candidate.faces) tried_[f] = true;
-            if (std::optional<ShapeFeature> fillet = fillet_of(tube, candidate)) fillets.push_back(*std::move(fillet));
+            std::optional<ShapeFeature> fillet = best_of(tube);
+            if (fillet) fillets.push_back(*std::move(fillet));
         }
         return fillets;
     }
 
 private:
-    Candidate candidate_of(const Tube& tube) const {
-        Candidate candidate{tube.faces, tube.along, fit_surface(mesh_, tube)};
-        if (!candidate.surface) return candidate;
-        candidate.faces = faces_on(*candidate.surface, mesh_, normals_, twin_, tube, most_bend_);
-        candidate.along.clear();
+    std::optional<ShapeFeature> best_of(const Tube& tube) {
+        const Candidate alone{tube.faces, tube.along, fit_surface(mesh_, tube)};
+        const Candidate grown = alone.surface ? grown_from(tube, *alone.surface) : alone;
+        for (const std::uint32_t f : grown.faces) tried_[f] = true;
+        const double most = kLittleMore * static_cast<double>(tube.faces.size());
+        std::optional<ShapeFeature> fillet = fillet_of(tube, grown);
+        // Some faces of a ball at its end may have come to it, which are near the surface as well.
+        if (!fillet && static_cast<double>(grown.faces.size()) < most) fillet = fillet_of(tube, alone);
+        return fillet;
+    }
+
+    Candidate grown_from(const Tube& tube, const TubeSurface& surface) const {
+        Candidate candidate{faces_on(surface, mesh_, normals_, twin_, tube, most_bend_), {}, surface};
         for (const std::uint32_t f : candidate.faces) {
             const Triangle& t = mesh_.faces[f];
             const Vec3 middle = (mesh_.positions[t[0]] + mesh_.positions[t[1]] + mesh_.positions[t[2]]) / 3;
-            candidate.along.push_back(candidate.surface->along_at(middle));
+            candidate.along.push_back(surface.along_at(middle));
         }
         return candidate;
     }

@@ -33,6 +33,12 @@ Expected<std::vector<std::uint32_t>> chosen(const std::vector<ShapeFeature>& fea
         return Error{Cause::kInvalidOption,
                      "max_diameter is " + number_text(*removal.max_diameter) + "; accepted are lengths over 0", "max_diameter"};
     }
+    if (!removal.kinds.empty() && !removal.max_diameter) {
+        return Error{Cause::kInvalidOption, "kinds are given without max_diameter; they say which features under it go", "kinds"};
+    }
+    const auto wanted = [&](ShapeFeature::Kind kind) {
+        return removal.kinds.empty() || std::find(removal.kinds.begin(), removal.kinds.end(), kind) != removal.kinds.end();
+    };
     std::set<std::uint32_t> ids;
     for (const std::uint32_t id : removal.ids) {
         if (id >= features.size()) {
@@ -43,7 +49,7 @@ Expected<std::vector<std::uint32_t>> chosen(const std::vector<ShapeFeature>& fea
         ids.insert(id);
     }
     for (const ShapeFeature& feature : features) {
-        if (removal.max_diameter && feature.diameter <= *removal.max_diameter) ids.insert(feature.id);
+        if (removal.max_diameter && feature.diameter <= *removal.max_diameter && wanted(feature.kind)) ids.insert(feature.id);
     }
     return std::vector<std::uint32_t>(ids.begin(), ids.end());
 }

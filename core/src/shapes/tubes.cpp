@@ -19,7 +19,8 @@ constexpr double kSameCentre = 0.1;           // of the radius
 constexpr double kSameWidth = 2;              // ratio of the widths of strips beside each other
 constexpr double kParallel = 0.9;             // cosine, 26 degrees
 constexpr double kBesides = 0.5;              // share of an edge that runs beside another
-constexpr double kTightest = 1.2;             // radius of the run over that of the tube: a sphere's is 1 or less
+constexpr double kTightest = 1.2;             // radius of the run over that of the tube: a sphere's is 1
+constexpr double kAcross = 0.7;               // cosine to the run under which an edge crosses it
 
 std::optional<TubeSection> section_at(const TriangleMesh& mesh, const FaceNormals& normals, HalfEdge h, HalfEdge twin,
                                       double most_bend) {
@@ -49,14 +50,15 @@ struct Beside {
 
 class TubeFinder {
 public:
-    TubeFinder(const TriangleMesh& mesh, const std::vector<HalfEdge>& twin) : mesh_(mesh), twin_(twin) {}
+    TubeFinder(const TriangleMesh& mesh, const std::vector<HalfEdge>& twin, double most_bend)
+        : mesh_(mesh), twin_(twin), most_bend_(most_bend) {}
 
-    std::vector<Tube> run(const FaceNormals& normals, double most_bend) {
+    std::vector<Tube> run(const FaceNormals& normals) {
         at_.assign(twin_.size(), kNone);
         for (HalfEdge h = 0; h < twin_.size(); ++h) {
             if (twin_[h] < h) continue;
-            const std::optional<TubeSection> section = section_at(mesh_, normals, h, twin_[h], most_bend);
-            if (!section) continue;
+            const std::optional<TubeSection> section = section_at(mesh_, normals, h, twin_[h], most_bend_);
+            if (!section || is_tight(*section, normals)) continue;
             at_[h] = at_[twin_[h]] = static_cast<std::uint32_t>(all_.size());
             all_.push_back(*section);
         }
@@ -84,6 +86,33 @@ public:
     }
 
 private:
+    /// How far a face goes along a direction.
+    double extent(std::uint32_t f, const Vec3& along) const {
+        double least = 0, most = 0;
+        for (const std::uint32_t v : mesh_.faces[f]) {
+            const double here = (mesh_.positions[v] - mesh_.positions[mesh_.faces[f][0]]).dot(along);
+            least = std::min(least, here);
+            most = std::max(most, here);
+        }
+        return most - least;
+    }
+
+    /// Whether the surface is bent along the section's edge as it is across it, as on a ball.
+    bool is_tight(const TubeSection& s, const FaceNormals& normals) const {
+        for (const HalfEdge base : {s.edge, twin_[s.edge]}) {
+            for (const HalfEdge side : {next(base), prev(base)}) {
+                const Vec3 edge = mesh_.positions[origin(mesh_, next(side))] - mesh_.positions[origin(mesh_, side)];
+                if (std::abs(edge.dot(s.along)) > kAcross * edge.norm()) continue;
+                const std::uint32_t here = face_of(side), there = face_of(twin_[side]);
+                const Vec3 &a = normals.normals[here], &b = normals.normals[there];
+                const double bend = std::atan2(a.cross(b).norm(), a.dot(b));
+                if (bend > most_bend_) continue;  // where it ends
+                if (bend * kTightest * s.radius > (extent(here, s.along) + extent(there, s.along)) / 2) return true;
+            }
+        }
+        return false;
+    }
+
     static bool alike(const TubeSection& l, const TubeSection& r) {
         return l.convex == r.convex && std::abs(l.radius - r.radius) <= kSameRadius * std::min(l.radius, r.radius);
     }
@@ -138,8 +167,7 @@ private:
     bool follow(const TubeSection& l, const TubeSection& r, std::uint32_t at) const {
         const bool l_leaves = origin(mesh_, l.edge) == at, r_leaves = origin(mesh_, r.edge) == at;
         const Vec3 onward = l_leaves == r_leaves ? Vec3(-r.along) : r.along;
-        const double turn = std::atan2(l.along.cross(onward).norm(), l.along.dot(onward));
-        return turn < std::acos(kParallel) && turn * kTightest * std::min(l.radius, r.radius) <= (l.length + r.length) / 2;
+        return l.along.dot(onward) > kParallel;
     }
 
     void add_faces(Tube& tube) const {
@@ -157,6 +185,7 @@ private:
 
     const TriangleMesh& mesh_;
     const std::vector<HalfEdge>& twin_;
+    const double most_bend_;
     std::vector<TubeSection> all_;
     std::vector<std::uint32_t> at_;  // of each half-edge
 };
@@ -165,7 +194,7 @@ private:
 
 std::vector<Tube> find_tubes(const TriangleMesh& mesh, const FaceNormals& normals, const std::vector<HalfEdge>& twin,
                              double angle) {
-    return TubeFinder(mesh, twin).run(normals, angle * kDegree);
+    return TubeFinder(mesh, twin, angle * kDegree).run(normals);
 }
 
 }  // namespace vsplit

@@ -15,6 +15,7 @@ struct FeatureRemoval {
     FeatureSearch search{};                ///< as the list was made that the ids are from
     std::vector<std::uint32_t> ids{};      ///< of `list_features` of the same mesh
     std::optional<double> max_diameter{};  ///< length, model units, > 0: all of this diameter and less
+    std::vector<ShapeFeature::Kind> kinds{};  ///< with `max_diameter`: of these kinds alone; empty: of all
 };
 
 /// A feature that stayed, and why.
@@ -42,7 +43,7 @@ struct FeaturelessMesh {
 /// beside the arcs at its ends, which must lie in a plane, are made anew. A feature whose rim cannot be filled without folding
 /// stays, and is in `kept`.
 /// Stage: "remove", by features.
-/// \return what `list_features` returns; INVALID_OPTION (field "ids" or "max_diameter"); CANCELLED.
+/// \return what `list_features` returns; INVALID_OPTION (field "ids", "max_diameter" or "kinds"); CANCELLED.
 /// Complexity: O(faces log faces), and cubic in the edges of a rim (of at most 500). Deterministic.
 [[nodiscard]] Expected<FeaturelessMesh> remove_features(const TriangleMesh& mesh, const FeatureRemoval& removal,
                                                         const ExecutionContext& context);
