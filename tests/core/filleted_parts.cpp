@@ -136,6 +136,33 @@ TriangleMesh hole_with_rounded_mouth(double radius, std::uint32_t strips, std::u
     return TurnedPlate(around).build(profile, true);
 }
 
+TriangleMesh rounded_slab(double radius, std::uint32_t strips, std::uint32_t around) {
+    std::vector<Point> profile{{8, 0}};
+    add_arc(profile, {8 - radius, 6 - radius}, radius, 0, 90, strips);
+    TriangleMesh mesh;
+    const std::uint32_t n = 2 * (around + 1);
+    for (const Point& p : profile) {
+        for (std::uint32_t k = 0; k < n; ++k) {
+            const bool far = k > around;
+            const double angle = std::numbers::pi * ((far ? k - 1 : k) / static_cast<double>(around) - 0.5);
+            mesh.positions.emplace_back((far ? -15 : 15) + p.x() * std::cos(angle), p.x() * std::sin(angle), p.y());
+        }
+    }
+    for (std::uint32_t row = 0; row + 1 < profile.size(); ++row) {
+        for (std::uint32_t k = 0; k < n; ++k) {
+            const std::uint32_t a = row * n + k, b = row * n + (k + 1) % n;
+            mesh.faces.push_back({a, b, b + n});
+            mesh.faces.push_back({a, b + n, a + n});
+        }
+    }
+    const std::uint32_t top = (static_cast<std::uint32_t>(profile.size()) - 1) * n;
+    for (std::uint32_t k = 1; k + 1 < n; ++k) {
+        mesh.faces.push_back({0, k + 1, k});
+        mesh.faces.push_back({top, top + k, top + k + 1});
+    }
+    return mesh;
+}
+
 TriangleMesh rounded_box(const Vec3& sides, double radius, std::uint32_t strips) {
     // A globe whose octants are drawn apart: between them come strips and planes.
     TriangleMesh mesh;

@@ -104,6 +104,20 @@ TEST(FilletsTest, FindsRingsAroundABossAndAHole) {
     }
 }
 
+TEST(FilletsTest, FindsARunOnNoLineOrCircle) {
+    for (const std::uint32_t around : {12U, 24U, 48U}) {
+        const TriangleMesh mesh = test::rounded_slab(2, 6, around);
+        const std::vector<ShapeFeature> found = fillets_of(test::shuffled(mesh, around));
+        ASSERT_EQ(found.size(), 1U) << around;
+        EXPECT_NEAR(found[0].diameter, 4, 0.04) << around;
+        const double arcs = 2 * around * 2 * std::sin(std::numbers::pi / (2 * around)) * (8 - 1);
+        EXPECT_NEAR(found[0].depth, 60 + arcs, 1e-6);
+        EXPECT_NEAR(std::abs(found[0].axis.z()), 1, 1e-6);
+        EXPECT_LT(found[0].centre.head<2>().norm(), 1e-6);
+        expect_all_removed(mesh, without(mesh, fillets_of(mesh)), 1);
+    }
+}
+
 TEST(FilletsTest, OtherShapesHaveNone) {
     for (const TriangleMesh& mesh :
          {test::rounded_block(0, 0, 40), test::cube(), test::sliver_cylinder(32, 3), test::sliver_cylinder(64, 0.5),
@@ -111,6 +125,11 @@ TEST(FilletsTest, OtherShapesHaveNone) {
           test::bumpy_sphere(3, 0.02, 5), test::bumpy_sphere(5, 0.005, 6), test::noisy_cube(20, 0.1, 7),
           test::noisy_cube(20, 0.01, 8)})
         EXPECT_TRUE(fillets_of(mesh).empty());
+    for (const char* name : {"scan.ply", "combined.stl"}) {
+        const auto read = read_mesh_file(test::data_file(name), {});
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_TRUE(fillets_of(read->mesh).empty()) << name;
+    }
 }
 
 TEST(FilletsTest, AChamferOrAnArcThatIsNotTangentIsNone) {

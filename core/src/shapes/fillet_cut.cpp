@@ -101,6 +101,25 @@ public:
         return path;
     }
 
+    /// Where a band that goes around is best cut in two, each without a vertex twice; 0 where that cannot be.
+    [[nodiscard]] std::size_t half_of(const std::vector<Place>& path) const {
+        std::size_t best = 0;
+        for (std::size_t k = 1; k + 1 < path.size(); ++k) {
+            const auto [i, j] = path[k];
+            const bool inside = i > 0 && j > 0 && i + 1 < a_.size() && j + 1 < b_.size();
+            if (inside && (best == 0 || 2 * k <= path.size())) best = k;
+        }
+        return best;
+    }
+
+    /// Whether no two of its edges join the same vertices; the last one of a band that goes around is the first.
+    [[nodiscard]] bool is_simple(const std::vector<Place>& path, bool closed) const {
+        std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+        const std::size_t count = path.size() - (closed ? 1 : 0);
+        for (std::size_t k = 0; k < count; ++k) edges.emplace(a_[path[k].first], b_[path[k].second]);
+        return edges.size() == count;
+    }
+
     [[nodiscard]] BandPiece piece(const std::vector<Place>& path, std::size_t first, std::size_t last) const {
         BandPiece piece;
         const auto [a_from, b_from] = path[first];
@@ -174,8 +193,10 @@ Expected<std::vector<BandPiece>> band_between_sides(const TriangleMesh& mesh, co
     const std::vector<Band::Place> path = band.path();
     const std::size_t last = path.size() - 1;
     const bool closed = first.front() == first.back();
-    std::vector<BandPiece> pieces{band.piece(path, 0, closed ? last / 2 : last)};
-    if (closed) pieces.push_back(band.piece(path, last / 2, last));
+    const std::size_t middle = closed ? band.half_of(path) : last;
+    if (middle == 0 || !band.is_simple(path, closed)) return cannot("the band between its sides would join two vertices twice");
+    std::vector<BandPiece> pieces{band.piece(path, 0, middle)};
+    if (closed) pieces.push_back(band.piece(path, middle, last));
     const auto beside = faces_at_sides(mesh, twin, fillet);
     for (const BandPiece& piece : pieces) {
         for (const Triangle& t : piece.faces) {
