@@ -1,13 +1,12 @@
 #include "wire/features.h"
 
 #include <algorithm>
+#include <string>
 
 #include "wire/convert.h"
 
 namespace vsplit::wire {
-namespace {
-
-v1::ShapeFeature::Kind kind_of(ShapeFeature::Kind kind) {
+v1::ShapeFeature::Kind to_proto(ShapeFeature::Kind kind) {
     switch (kind) {
         case ShapeFeature::Kind::kThroughHole:
             return v1::ShapeFeature::THROUGH_HOLE;
@@ -15,8 +14,30 @@ v1::ShapeFeature::Kind kind_of(ShapeFeature::Kind kind) {
             return v1::ShapeFeature::BLIND_HOLE;
         case ShapeFeature::Kind::kBoss:
             return v1::ShapeFeature::BOSS;
+        case ShapeFeature::Kind::kFillet:
+            return v1::ShapeFeature::FILLET;
     }
     return v1::ShapeFeature::KIND_UNSPECIFIED;
+}
+
+namespace {
+
+Expected<ShapeFeature::Kind> kind_from(int kind) {
+    switch (kind) {
+        case v1::ShapeFeature::THROUGH_HOLE:
+            return ShapeFeature::Kind::kThroughHole;
+        case v1::ShapeFeature::BLIND_HOLE:
+            return ShapeFeature::Kind::kBlindHole;
+        case v1::ShapeFeature::BOSS:
+            return ShapeFeature::Kind::kBoss;
+        case v1::ShapeFeature::FILLET:
+            return ShapeFeature::Kind::kFillet;
+        default:
+            return Error{Cause::kInvalidOption,
+                         "a kind is " + std::to_string(kind) +
+                             ", which names none; accepted are THROUGH_HOLE, BLIND_HOLE, BOSS and FILLET",
+                         "kinds"};
+    }
 }
 
 }  // namespace
@@ -24,7 +45,7 @@ v1::ShapeFeature::Kind kind_of(ShapeFeature::Kind kind) {
 v1::ShapeFeature to_proto(const ShapeFeature& feature) {
     v1::ShapeFeature proto;
     proto.set_id(feature.id);
-    proto.set_kind(kind_of(feature.kind));
+    proto.set_kind(to_proto(feature.kind));
     proto.set_diameter(feature.diameter);
     proto.set_depth(feature.depth);
     *proto.mutable_axis() = to_proto(feature.axis);
@@ -56,9 +77,14 @@ v1::RemoveFeaturesResponse to_proto(const FeaturelessMesh& made, const MeshRepor
     return proto;
 }
 
-FeatureRemoval from_proto(const v1::RemoveFeaturesRequest& request) {
-    FeatureRemoval removal{search_of(request), {request.ids().begin(), request.ids().end()}, {}};
+Expected<FeatureRemoval> from_proto(const v1::RemoveFeaturesRequest& request) {
+    FeatureRemoval removal{search_of(request), {request.ids().begin(), request.ids().end()}, {}, {}};
     if (request.has_max_diameter()) removal.max_diameter = request.max_diameter();
+    for (const int kind : request.kinds()) {
+        const Expected<ShapeFeature::Kind> known = kind_from(kind);
+        if (!known) return known.error();
+        removal.kinds.push_back(*known);
+    }
     return removal;
 }
 

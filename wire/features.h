@@ -13,6 +13,7 @@ namespace vsplit::wire {
 /// Of the faces the first kMostFeatureFaces.
 inline constexpr std::size_t kMostFeatureFaces = 10'000;
 
+[[nodiscard]] v1::ShapeFeature::Kind to_proto(ShapeFeature::Kind kind);
 [[nodiscard]] v1::ShapeFeature to_proto(const ShapeFeature& feature);
 
 /// Their lengths are in `unit`.
@@ -29,6 +30,7 @@ template <class Request>
     return search;
 }
 
-[[nodiscard]] FeatureRemoval from_proto(const v1::RemoveFeaturesRequest& request);
+/// \return INVALID_OPTION for a kind that is none.
+[[nodiscard]] Expected<FeatureRemoval> from_proto(const v1::RemoveFeaturesRequest& request);
 
 }  // namespace vsplit::wire

@@ -43,17 +43,22 @@ CLI::Option* add_real(CLI::App& verb, const std::string& name, std::optional<dou
     return verb.add_option(name, value, about)->check(real_number());
 }
 
-/// An option whose values have names.
 template <class Value>
-CLI::Option* add_choice(CLI::App& verb, const std::string& name, const std::map<std::string, Value>& values,
-                        const std::function<void(Value)>& take, const std::string& about) {
+CLI::Validator one_of(const std::map<std::string, Value>& values) {
     std::string accepted;
     for (const auto& [text, value] : values) accepted += (accepted.empty() ? "" : ", ") + text;
     const auto check = [values, accepted](const std::string& text) {
         return values.count(text) > 0 ? std::string() : "'" + text + "' is given; accepted is one of " + accepted;
     };
+    return {check, ""};
+}
+
+/// An option whose values have names.
+template <class Value>
+CLI::Option* add_choice(CLI::App& verb, const std::string& name, const std::map<std::string, Value>& values,
+                        const std::function<void(Value)>& take, const std::string& about) {
     const auto convert = [values, take](const std::string& text) { take(values.at(text)); };
-    return verb.add_option_function<std::string>(name, convert, about)->check(CLI::Validator(check, ""));
+    return verb.add_option_function<std::string>(name, convert, about)->check(one_of(values));
 }
 
 void add_unit(CLI::App& verb, const std::string& name, std::optional<LengthUnit>& unit, const std::string& about) {
@@ -371,14 +376,31 @@ void add_feature_search(CLI::App& verb, Arguments& a) {
         ->type_name("A");
 }
 
+/// The kinds of features that the diameter holds for; may be repeated.
+void add_kinds(CLI::App& verb, Arguments& a) {
+    using Kind = ShapeFeature::Kind;
+    const std::map<std::string, Kind> kinds{
+        {"through-hole", Kind::kThroughHole}, {"blind-hole", Kind::kBlindHole}, {"boss", Kind::kBoss}, {"fillet", Kind::kFillet}};
+    const auto take = [kinds, &a](const std::vector<std::string>& names) {
+        for (const std::string& name : names) a.removal.kinds.push_back(kinds.at(name));
+    };
+    verb.add_option_function<std::vector<std::string>>(
+            "--kind", take, "With --max-diameter: remove through-hole, blind-hole, boss or fillet alone; may be repeated. Default: all")
+        ->check(one_of(kinds))
+        ->type_name("K")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
+}
+
 void add_features(CLI::App& app, Arguments& a) {
-    CLI::App& verb = *app.add_subcommand("features", "List round holes and bosses with diameter, depth and axis");
+    CLI::App& verb = *app.add_subcommand("features", "List round holes, bosses and fillets with diameter, depth and axis");
     add_feature_search(verb, a);
     verb.footer("Example:\n  vsplit features crankshaft.stl");
 }
 
 void add_remove_features(CLI::App& app, Arguments& a) {
-    CLI::App& verb = *app.add_subcommand("remove-features", "Fill round holes and take bosses away; the rest stays as it is");
+    CLI::App& verb = *app.add_subcommand("remove-features", "Fill round holes, take bosses away, chamfer fillets; the rest stays as it is");
     add_feature_search(verb, a);
     verb.add_option("--id", a.removal.ids, "Feature to remove, by the number that `vsplit features` gives it; may be repeated")
         ->check(whole_number())
@@ -387,6 +409,7 @@ void add_remove_features(CLI::App& app, Arguments& a) {
         ->take_all()
         ->allow_extra_args(false);
     add_real(verb, "--max-diameter", a.removal.max_diameter, "Remove all of this diameter and less; length > 0")->type_name("D");
+    add_kinds(verb, a);
     verb.footer(
         "With --session the result takes the place of the session's mesh.\n"
         "Example:\n  vsplit remove-features plate.stl --max-diameter 6 -o filled.stl");

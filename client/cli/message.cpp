@@ -56,6 +56,7 @@ std::string option_of(const std::string& field) {
                                                                       {"angle", "--angle"},
                                                                       {"ids", "--id"},
                                                                       {"max_diameter", "--max-diameter"},
+                                                                      {"kinds", "--kind"},
                                                                       {"input", "IN"}};
     const auto found = options.find(field);
     return found == options.end() ? std::string() : std::string(found->second);

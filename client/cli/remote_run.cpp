@@ -11,6 +11,7 @@
 #include "vsplit/client/meshing_client.h"
 #include "vsplit/method/method_options.h"
 #include "wire/convert.h"
+#include "wire/features.h"
 
 namespace vsplit::cli {
 namespace {
@@ -194,6 +195,7 @@ private:
         request.set_angle(removal.search.angle);
         request.mutable_ids()->Assign(removal.ids.begin(), removal.ids.end());
         if (removal.max_diameter) request.set_max_diameter(*removal.max_diameter);
+        for (const ShapeFeature::Kind kind : removal.kinds) request.add_kinds(wire::to_proto(kind));
         Expected<v1::RemoveFeaturesResponse> done = client_.remove_features(request, call_);
         if (!done) return done.error();
         if (Status downloaded = download("", 0); !downloaded) return downloaded.error();

@@ -213,13 +213,15 @@ std::string kind_name(v1::ShapeFeature::Kind kind) {
             return "blind hole";
         case v1::ShapeFeature::BOSS:
             return "boss";
+        case v1::ShapeFeature::FILLET:
+            return "fillet";
         default:
             return "unknown";
     }
 }
 
 std::string text_of(const v1::ListFeaturesResponse& list, bool /*detailed*/, const std::string& unit) {
-    if (list.features().empty()) return "no round hole or boss is recognised\n";
+    if (list.features().empty()) return "no round hole, boss or fillet is recognised\n";
     std::string text = right("id", 6) + "  " + left("kind", 14) + right(headed("diameter", unit), 12) +
                        right(headed("depth", unit), 12) + right("faces", 8) + "  " + headed("centre", unit) + "; axis\n";
     for (const v1::ShapeFeature& f : list.features()) {

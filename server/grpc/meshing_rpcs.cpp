@@ -121,8 +121,9 @@ Status list_features(service::MeshingService& service, const service::Caller& ca
 Status remove_features(service::MeshingService& service, const service::Caller& caller,
                        const grpc::CallbackServerContext& context, const v1::RemoveFeaturesRequest& request,
                        v1::RemoveFeaturesResponse& response) {
-    const auto done =
-        service::remove_features_of(service, request.session(), wire::from_proto(request), wanted_by(context), caller);
+    const Expected<FeatureRemoval> removal = wire::from_proto(request);
+    if (!removal) return removal.error();
+    const auto done = service::remove_features_of(service, request.session(), *removal, wanted_by(context), caller);
     if (!done) return done.error();
     response = wire::to_proto(done->made, done->source->report);
     return Done{};

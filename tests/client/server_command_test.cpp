@@ -111,6 +111,12 @@ TEST_F(ServerCommandTest, FeaturesAreWhatTheyAreLocally) {
     ASSERT_EQ(removed.exit_status, 0) << removed.err;
     EXPECT_EQ(removed.out, locally({"remove-features", mesh, "--max-diameter", "3.5", "-o", file("near.ply"), "--json"}).out);
     EXPECT_EQ(test::file_content(file("far.ply")), test::file_content(file("near.ply")));
+    const std::vector<std::string> through{"remove-features", mesh, "--max-diameter", "5", "--kind", "through-hole", "--kind", "fillet", "--json"};
+    const CommandResult one = remotely(through);
+    ASSERT_EQ(one.exit_status, 0) << one.err;
+    EXPECT_EQ(one.out, locally(through).out);
+    EXPECT_NE(one.out, removed.out);
+    EXPECT_NE(locally({"remove-features", mesh, "--max-diameter", "5", "--kind", "rib"}).exit_status, 0);
     const CommandResult refused = remotely({"remove-features", mesh, "--id", "9"});
     EXPECT_EQ(refused.exit_status, 1);
     EXPECT_NE(refused.err.find("--id"), std::string::npos) << refused.err;

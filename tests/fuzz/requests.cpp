@@ -53,7 +53,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             break;
         default: {
             v1::RemoveFeaturesRequest request;
-            if (parse(text, json, request)) static_cast<void>(wire::from_proto(request));
+            if (parse(text, json, request)) [[maybe_unused]]
+                const auto removal = wire::from_proto(request);
         }
     }
     return 0;

@@ -7,6 +7,7 @@
 #include "test_client.h"
 #include "test_server.h"
 #include "tests/core/drilled_plate.h"
+#include "tests/core/filleted_parts.h"
 #include "tests/core/meshes.h"
 
 namespace vsplit::test {
@@ -84,6 +85,39 @@ TEST(FeaturesRpcsTest, RemovesById) {
     ASSERT_TRUE(done.status.ok()) << done.status.error_message();
     EXPECT_THAT(done.message.removed(), ElementsAre(1U));
     EXPECT_EQ(list(server, session).message.features_size(), 2);
+}
+
+TEST(FeaturesRpcsTest, ListsAndChamfersFillets) {
+    TestServer server;
+    const std::string session = session_with(server.stub(), rounded_block(2, 8, 40));
+    const auto listed = list(server, session);
+    ASSERT_EQ(listed.message.features_size(), 1);
+    const v1::ShapeFeature& fillet = listed.message.features(0);
+    EXPECT_EQ(fillet.kind(), v1::ShapeFeature::FILLET);
+    EXPECT_NEAR(fillet.diameter(), 4, 0.001);
+    EXPECT_NEAR(fillet.depth(), 40, 1e-4);
+    v1::RemoveFeaturesRequest request = all_under(session, 5);
+    request.add_kinds(v1::ShapeFeature::THROUGH_HOLE);
+    EXPECT_EQ(remove(server, request).message.removed_size(), 0);
+    request.add_kinds(v1::ShapeFeature::FILLET);
+    EXPECT_THAT(remove(server, request).message.removed(), ElementsAre(0U));
+    EXPECT_EQ(list(server, session).message.features_size(), 0);
+}
+
+TEST(FeaturesRpcsTest, KindsThatAreNoneOrHoldForNothingAreRefused) {
+    TestServer server;
+    const std::string session = session_with(server.stub(), plate());
+    v1::RemoveFeaturesRequest unknown = all_under(session, 5);
+    unknown.add_kinds(v1::ShapeFeature::KIND_UNSPECIFIED);
+    const auto refused = remove(server, unknown);
+    EXPECT_TRUE(failed_with(refused.status, Cause::kInvalidOption));
+    EXPECT_THAT(refused.status.error_message(), HasSubstr("accepted are THROUGH_HOLE, BLIND_HOLE, BOSS and FILLET"));
+    v1::RemoveFeaturesRequest alone;
+    alone.set_session(session);
+    alone.add_ids(0);
+    alone.add_kinds(v1::ShapeFeature::BOSS);
+    EXPECT_THAT(remove(server, alone).status.error_message(), HasSubstr("max_diameter"));
+    EXPECT_EQ(list(server, session).message.features_size(), 3);
 }
 
 TEST(FeaturesRpcsTest, RefusalsChangeNothing) {

@@ -84,7 +84,7 @@ class Client:
         return list(self._stub.ListFeatures(v1.ListFeaturesRequest(session=session, **options)).features)
 
     def remove_features(self, session, *, ids=(), **options):
-        """Takes features off the session's mesh; a RemoveFeaturesResponse. `options`: `max_diameter`, `angle`."""
+        """Takes features off the session's mesh; a RemoveFeaturesResponse. `options`: `max_diameter`, `kinds`, `angle`."""
         return self._stub.RemoveFeatures(v1.RemoveFeaturesRequest(session=session, ids=ids, **options))
 
     def keep_alive(self, session):

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "shapes/circle.h"
+
 namespace vsplit {
 namespace {
 
@@ -31,24 +33,20 @@ std::optional<Vec3> common_direction(const TriangleMesh& mesh, const FaceNormals
     return Vec3(solver.eigenvectors().col(0));
 }
 
-/// The circle through points of a plane, by least squares of |p|^2 = 2 p.c + (r^2 - |c|^2) (Kasa 1976).
-std::optional<Cylinder> fit_circle(const TriangleMesh& mesh, const Segments::Segment& segment, const Vec3& direction) {
-    const Vec3 origin_point = middle_of(mesh, segment.loops.front());
+/// The cylinder along a direction through the vertices of a segment's borders.
+std::optional<Cylinder> fit_along(const TriangleMesh& mesh, const Segments::Segment& segment, const Vec3& direction) {
+    const Vec3 middle = middle_of(mesh, segment.loops.front());
     const Vec3 u = direction.unitOrthogonal(), v = direction.cross(u);
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Vec3 right = Vec3::Zero();
+    std::vector<Eigen::Vector2d> points;
     for (const Segments::Loop& loop : segment.loops) {
         for (const HalfEdge h : loop) {
-            const Vec3 p = mesh.positions[origin(mesh, h)] - origin_point;
-            const Vec3 row(2 * p.dot(u), 2 * p.dot(v), 1);
-            normal += row * row.transpose();
-            right += row * (p.dot(u) * p.dot(u) + p.dot(v) * p.dot(v));
+            const Vec3 p = mesh.positions[origin(mesh, h)] - middle;
+            points.emplace_back(p.dot(u), p.dot(v));
         }
     }
-    const Vec3 found = normal.ldlt().solve(right);
-    const double squared = found[2] + found[0] * found[0] + found[1] * found[1];
-    if (!(squared > 0) || !found.allFinite()) return {};
-    return Cylinder{{origin_point + found[0] * u + found[1] * v, direction}, std::sqrt(squared), false};
+    const std::optional<Circle> circle = fit_circle(points);
+    if (!circle) return {};
+    return Cylinder{{middle + circle->centre[0] * u + circle->centre[1] * v, direction}, circle->radius, false};
 }
 
 }  // namespace
@@ -80,7 +78,7 @@ std::optional<Cylinder> fit_cylinder(const TriangleMesh& mesh, const FaceNormals
     if (segment.loops.size() != 2) return {};
     const std::optional<Vec3> direction = common_direction(mesh, normals, segment);
     if (!direction) return {};
-    std::optional<Cylinder> cylinder = fit_circle(mesh, segment, *direction);
+    std::optional<Cylinder> cylinder = fit_along(mesh, segment, *direction);
     if (!cylinder) return {};
     double outward = 0;
     for (const std::uint32_t f : segment.faces) {

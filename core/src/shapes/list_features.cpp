@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "shapes/cylinder.h"
+#include "shapes/fillets.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/shapes/shape_features.h"
 
@@ -29,6 +30,7 @@ class Recogniser {
 public:
     Recogniser(const TriangleMesh& mesh, double angle)
         : mesh_(mesh),
+          angle_(angle),
           normals_(face_normals(mesh)),
           segments_(find_segments(mesh, normals_, angle)),
           taken_(segments_.all.size(), false) {}
@@ -39,6 +41,7 @@ public:
             if (taken_[s]) continue;
             if (std::optional<ShapeFeature> feature = feature_at(s)) features.push_back(*std::move(feature));
         }
+        add_fillets(features);
         const auto first_face = [](const ShapeFeature& f) { return f.faces.front(); };
         std::sort(features.begin(), features.end(),
                   [&](const ShapeFeature& l, const ShapeFeature& r) { return first_face(l) < first_face(r); });
@@ -48,6 +51,20 @@ public:
 
 private:
     const Vec3& point(HalfEdge h) const { return mesh_.positions[origin(mesh_, h)]; }
+
+    /// Those that no other feature has a face of.
+    void add_fillets(std::vector<ShapeFeature>& features) const {
+        std::vector<bool> used(mesh_.faces.size(), false);
+        const auto mark = [&](const ShapeFeature& feature) {
+            for (const std::uint32_t f : feature.faces) used[f] = true;
+        };
+        for (const ShapeFeature& feature : features) mark(feature);
+        for (ShapeFeature& fillet : find_fillets(mesh_, normals_, segments_.twin, angle_)) {
+            if (std::any_of(fillet.faces.begin(), fillet.faces.end(), [&](std::uint32_t f) { return used[f]; })) continue;
+            mark(fillet);
+            features.push_back(std::move(fillet));
+        }
+    }
 
     std::optional<ShapeFeature> feature_at(std::uint32_t s) {
         const std::optional<Cylinder> cylinder = fit_cylinder(mesh_, normals_, segments_.all[s]);
@@ -182,6 +199,7 @@ private:
     }
 
     const TriangleMesh& mesh_;
+    const double angle_;
     const FaceNormals normals_;
     const Segments segments_;
     std::vector<bool> taken_;
@@ -199,6 +217,8 @@ std::string_view shape_feature_name(ShapeFeature::Kind kind) {
             return "BLIND_HOLE";
         case Kind::kBoss:
             return "BOSS";
+        case Kind::kFillet:
+            return "FILLET";
     }
     return "";
 }

@@ -6,8 +6,10 @@
 
 #include "base/number_text.h"
 #include "mesh/drop_unused.h"
+#include "shapes/fillet_cut.h"
 #include "shapes/improve_patch.h"
 #include "shapes/rims.h"
+#include "vsplit/features/face_normals.h"
 #include "vsplit/quality/stretch.h"
 
 namespace vsplit {
@@ -31,6 +33,12 @@ Expected<std::vector<std::uint32_t>> chosen(const std::vector<ShapeFeature>& fea
         return Error{Cause::kInvalidOption,
                      "max_diameter is " + number_text(*removal.max_diameter) + "; accepted are lengths over 0", "max_diameter"};
     }
+    if (!removal.kinds.empty() && !removal.max_diameter) {
+        return Error{Cause::kInvalidOption, "kinds are given without max_diameter; they say which features under it go", "kinds"};
+    }
+    const auto wanted = [&](ShapeFeature::Kind kind) {
+        return removal.kinds.empty() || std::find(removal.kinds.begin(), removal.kinds.end(), kind) != removal.kinds.end();
+    };
     std::set<std::uint32_t> ids;
     for (const std::uint32_t id : removal.ids) {
         if (id >= features.size()) {
@@ -41,20 +49,29 @@ Expected<std::vector<std::uint32_t>> chosen(const std::vector<ShapeFeature>& fea
         ids.insert(id);
     }
     for (const ShapeFeature& feature : features) {
-        if (removal.max_diameter && feature.diameter <= *removal.max_diameter) ids.insert(feature.id);
+        if (removal.max_diameter && feature.diameter <= *removal.max_diameter && wanted(feature.kind)) ids.insert(feature.id);
     }
     return std::vector<std::uint32_t>(ids.begin(), ids.end());
 }
 
-/// What comes in the place of a feature's faces.
+/// What goes with a feature, and the rings it leaves open.
+struct Cut {
+    std::vector<std::uint32_t> faces;  // ascending
+    std::vector<Rim> rims;             // whole ones, or parts that a straight line closes
+    bool banded = false;               // a band between the feature's sides is to come as well
+};
+
+/// A patch on a ring.
 struct Filling {
-    std::vector<Patch> patches;  // their borders in order, as the rims run
-    std::vector<Rim> rims;
+    Ring ring;
+    Patch patch;  // its border in order, as the ring runs
+    std::uint32_t beside = 0;  // a face beside the ring, or where that belongs to another surface one that it replaces
 };
 
 class Remover {
 public:
-    explicit Remover(const TriangleMesh& mesh) : mesh_(mesh), twin_(half_edge_twins(mesh)), gone_(mesh.faces.size(), false) {
+    explicit Remover(const TriangleMesh& mesh)
+        : mesh_(mesh), normals_(face_normals(mesh)), twin_(half_edge_twins(mesh)), gone_(mesh.faces.size(), false) {
         result_.mesh = mesh;
         result_.size = mean_size(mesh);
     }
@@ -62,10 +79,11 @@ public:
     void plan(const std::vector<ShapeFeature>& features, const std::vector<std::uint32_t>& ids) {
         std::vector<bool> on_rim(mesh_.positions.size(), false);
         for (const std::uint32_t id : ids) {
-            const Expected<std::vector<Rim>> rims = find_rims(mesh_, twin_, features[id].faces);
-            if (!rims) continue;  // `remove` says so
-            for (const Rim& rim : *rims) {
-                for (const HalfEdge h : rim) on_rim[origin(mesh_, h)] = true;
+            const Expected<Cut> cut = cut_out(features[id]);
+            if (!cut) continue;  // `remove` says so
+            for (const Rim& rim : cut->rims) mark(on_rim, rim);
+            for (const std::vector<std::uint32_t>& side : features[id].sides) {
+                for (const std::uint32_t v : side) on_rim[v] = true;
             }
         }
         for (HalfEdge h = 0; h < twin_.size(); ++h) {
@@ -75,13 +93,14 @@ public:
     }
 
     void remove(const ShapeFeature& feature) {
-        Expected<Filling> filling = fill(feature);
-        if (!filling) {
-            result_.kept.push_back({feature.id, filling.error().message});
+        const Expected<Cut> cut = cut_out(feature);
+        const Expected<std::vector<Filling>> fillings = cut ? fill(feature, *cut) : cut.error();
+        if (!fillings) {
+            result_.kept.push_back({feature.id, fillings.error().message});
             return;
         }
-        for (const std::uint32_t f : feature.faces) gone_[f] = true;
-        for (std::size_t i = 0; i < filling->rims.size(); ++i) put(filling->patches[i], filling->rims[i]);
+        for (const std::uint32_t f : cut->faces) gone_[f] = true;
+        for (const Filling& filling : *fillings) put(filling);
         result_.removed.push_back(feature.id);
     }
 
@@ -109,73 +128,131 @@ public:
     }
 
 private:
-    Expected<Filling> fill(const ShapeFeature& feature) {
-        Expected<std::vector<Rim>> rims = find_rims(mesh_, twin_, feature.faces);
-        if (!rims) return rims.error();
-        Filling filling{{}, *std::move(rims)};
-        std::set<Edge> added;
-        for (const Rim& rim : filling.rims) {
-            for (const HalfEdge h : rim) {
-                if (gone_[face_of(twin_[h])])
-                    return Error{Cause::kUnsupported, "its rim lies on a feature that goes as well", ""};
-            }
-            const auto has_edge = [&](std::uint32_t a, std::uint32_t b) {
-                return edges_.count(edge(a, b)) > 0 || added.count(edge(a, b)) > 0;
-            };
-            const Expected<std::vector<Triangle>> faces = fill_rim(mesh_, rim, has_edge);
-            if (!faces) return faces.error();
-            filling.patches.push_back(improved(rim, *faces, has_edge));
-            for (const Edge& e : inner_edges(filling.patches.back(), rim)) added.insert(e);
-        }
-        edges_.merge(added);
-        return filling;
+    void mark(std::vector<bool>& on_rim, const Rim& rim) const {
+        for (const HalfEdge h : rim) on_rim[origin(mesh_, h)] = on_rim[origin(mesh_, next(h))] = true;
     }
 
-    /// The filling of a rim, improved; as it was where that would join two vertices that are joined already.
-    template <class HasEdge>
-    Patch improved(const Rim& rim, const std::vector<Triangle>& faces, const HasEdge& has_edge) const {
-        Patch raw{{{}, faces}, static_cast<std::uint32_t>(rim.size())};
-        std::vector<Edge> number;  // vertex of the mesh, place on the rim
+    Expected<Cut> cut_out(const ShapeFeature& feature) const {
+        if (feature.kind == ShapeFeature::Kind::kFillet) {
+            Expected<FilletCut> cut = cut_fillet(mesh_, normals_, twin_, feature);
+            if (!cut) return cut.error();
+            return Cut{std::move(cut->faces), std::move(cut->ends), true};
+        }
+        Expected<std::vector<Rim>> rims = find_rims(mesh_, twin_, feature.faces);
+        if (!rims) return rims.error();
+        return Cut{feature.faces, *std::move(rims)};
+    }
+
+    Status require_untouched(const Cut& cut) const {
+        for (const std::uint32_t f : cut.faces) {
+            for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
+                if (gone_[f] || gone_[face_of(twin_[h])])
+                    return Error{Cause::kUnsupported, "its rim lies on a feature that goes as well", ""};
+            }
+        }
+        return Done{};
+    }
+
+    /// The edges between faces of a cut: they go with them.
+    std::set<Edge> edges_inside(const Cut& cut) const {
+        std::set<Edge> edges;
+        for (const std::uint32_t f : cut.faces) {
+            for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
+                if (std::binary_search(cut.faces.begin(), cut.faces.end(), face_of(twin_[h])))
+                    edges.insert(edge(origin(mesh_, h), origin(mesh_, next(h))));
+            }
+        }
+        return edges;
+    }
+
+    Expected<std::vector<Filling>> fill(const ShapeFeature& feature, const Cut& cut) {
+        if (Status untouched = require_untouched(cut); !untouched) return untouched.error();
+        std::vector<Filling> fillings;
+        std::set<Edge> added;
+        const std::set<Edge> leaving = cut.banded ? edges_inside(cut) : std::set<Edge>{};
+        const HasEdge has_edge = [&](std::uint32_t a, std::uint32_t b) {
+            return (edges_.count(edge(a, b)) > 0 && leaving.count(edge(a, b)) == 0) || added.count(edge(a, b)) > 0;
+        };
+        const auto add = [&](const Ring& ring, const std::vector<Triangle>& faces, std::uint32_t beside) {
+            fillings.push_back({ring, improved(ring, faces, has_edge), beside});
+            for (const Edge& e : inner_edges(fillings.back().patch, ring)) added.insert(e);
+        };
+        if (cut.banded) {
+            const Expected<std::vector<BandPiece>> band = band_between_sides(mesh_, normals_, twin_, feature, has_edge);
+            if (!band) return band.error();
+            for (const BandPiece& piece : *band) {
+                for (std::size_t i = 0; i < piece.border.size(); ++i)
+                    added.insert(edge(piece.border[i], piece.border[(i + 1) % piece.border.size()]));
+            }
+            const std::uint32_t beside = face_beside(feature);
+            for (const BandPiece& piece : *band) add(piece.border, piece.faces, beside);
+        }
+        for (const Rim& rim : cut.rims) {
+            Ring ring = origins(mesh_, rim);
+            if (cut.banded) ring.push_back(origin(mesh_, next(rim.back())));
+            const Expected<std::vector<Triangle>> faces = fill_ring(mesh_, ring, has_edge);
+            if (!faces) return faces.error();
+            add(ring, *faces, cut.banded ? face_of(rim.front()) : face_of(twin_[rim.front()]));
+        }
+        edges_.merge(added);
+        return fillings;
+    }
+
+    /// The face on the other side of where a fillet's first side begins.
+    std::uint32_t face_beside(const ShapeFeature& fillet) const {
+        const std::vector<std::uint32_t>& side = fillet.sides[0];
+        for (const std::uint32_t f : fillet.faces) {
+            for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
+                if (origin(mesh_, h) == side[0] && origin(mesh_, next(h)) == side[1]) return face_of(twin_[h]);
+            }
+        }
+        return fillet.faces.front();
+    }
+
+    /// The filling of a ring, improved; as it was where that would join two vertices that are joined already.
+    Patch improved(const Ring& ring, const std::vector<Triangle>& faces, const HasEdge& has_edge) const {
+        Patch raw{{{}, faces}, static_cast<std::uint32_t>(ring.size())};
+        std::vector<Edge> number;  // vertex of the mesh, place on the ring
         for (std::uint32_t i = 0; i < raw.border; ++i) {
-            number.emplace_back(origin(mesh_, rim[i]), i);
-            raw.mesh.positions.push_back(mesh_.positions[number.back().first]);
+            number.emplace_back(ring[i], i);
+            raw.mesh.positions.push_back(mesh_.positions[ring[i]]);
         }
         std::sort(number.begin(), number.end());
         for (Triangle& t : raw.mesh.faces) {
             for (std::uint32_t& corner : t) corner = std::lower_bound(number.begin(), number.end(), Edge(corner, 0))->second;
         }
         Patch better = improve_patch(raw, result_.size);
-        const std::vector<Edge> edges = inner_edges(better, rim);
+        const std::vector<Edge> edges = inner_edges(better, ring);
         const bool joined = std::any_of(edges.begin(), edges.end(), [&](const Edge& e) { return has_edge(e.first, e.second); });
         return joined ? raw : better;
     }
 
-    /// Edges inside a patch between two vertices of the rim.
-    std::vector<Edge> inner_edges(const Patch& patch, const Rim& rim) const {
+    /// Edges inside a patch between two vertices of the ring.
+    static std::vector<Edge> inner_edges(const Patch& patch, const Ring& ring) {
         std::vector<Edge> edges;
         const std::vector<HalfEdge> twins = half_edge_twins(patch.mesh);
         for (HalfEdge h = 0; h < twins.size(); ++h) {
             const std::uint32_t a = origin(patch.mesh, h), b = origin(patch.mesh, next(h));
-            if (twins[h] != kNone && h < twins[h] && a < patch.border && b < patch.border)
-                edges.push_back(edge(origin(mesh_, rim[a]), origin(mesh_, rim[b])));
+            if (twins[h] != kNone && h < twins[h] && a < patch.border && b < patch.border) edges.push_back(edge(ring[a], ring[b]));
         }
         return edges;
     }
 
-    void put(const Patch& patch, const Rim& rim) {
-        std::vector<std::uint32_t> number;
-        for (const HalfEdge h : rim) number.push_back(origin(mesh_, h));
+    void put(const Filling& filling) {
+        std::vector<std::uint32_t> number = filling.ring;
+        const Patch& patch = filling.patch;
         for (std::uint32_t v = patch.border; v < patch.mesh.vertex_count(); ++v) {
             number.push_back(result_.mesh.vertex_count());
             result_.mesh.positions.push_back(patch.mesh.positions[v]);
         }
         for (const Triangle& t : patch.mesh.faces) {
             faces_.push_back({number[t[0]], number[t[1]], number[t[2]]});
-            beside_.push_back(face_of(twin_[rim.front()]));
+            beside_.push_back(filling.beside);
         }
     }
 
     const TriangleMesh& mesh_;
+    const FaceNormals normals_;
     const std::vector<HalfEdge> twin_;
     std::vector<bool> gone_;
     std::set<Edge> edges_;  // between vertices of rims

@@ -11,7 +11,6 @@ namespace vsplit {
 namespace {
 
 constexpr std::size_t kMostEdges = 500;  // the cubic search takes 0.1 s for so many
-constexpr double kFold = 0.1;            // cosine: a new face that looks further away from the rest folds over; 84 degrees
 
 Error cannot(std::string why) { return {Cause::kUnsupported, std::move(why), ""}; }
 
@@ -43,22 +42,23 @@ Expected<std::vector<Rim>> find_rims(const TriangleMesh& mesh, const std::vector
     return rims;
 }
 
-Expected<std::vector<Triangle>> fill_rim(const TriangleMesh& mesh, const Rim& rim,
-                                         const std::function<bool(std::uint32_t, std::uint32_t)>& has_edge) {
-    if (rim.size() > kMostEdges) {
-        return cannot("a rim of it has " + std::to_string(rim.size()) + " edges; filled are rims of at most " +
+Ring origins(const TriangleMesh& mesh, const Rim& rim) {
+    Ring ring;
+    for (const HalfEdge h : rim) ring.push_back(origin(mesh, h));
+    return ring;
+}
+
+Expected<std::vector<Triangle>> fill_ring(const TriangleMesh& mesh, const Ring& ring, const HasEdge& has_edge) {
+    if (ring.size() > kMostEdges) {
+        return cannot("a rim of it has " + std::to_string(ring.size()) + " edges; filled are rims of at most " +
                       std::to_string(kMostEdges));
     }
-    if (rim.size() < 3) return cannot("a rim of it has fewer than three edges");
-    std::vector<std::uint32_t> vertices;
+    if (ring.size() < 3) return cannot("a rim of it has fewer than three edges");
     std::vector<Vec3> corners;
-    for (const HalfEdge h : rim) {
-        vertices.push_back(origin(mesh, h));
-        corners.push_back(mesh.positions[vertices.back()]);
-    }
+    for (const std::uint32_t v : ring) corners.push_back(mesh.positions[v]);
     std::vector<Triangle> faces =
-        triangulate_loop(corners, [&](std::uint32_t i, std::uint32_t j) { return !has_edge(vertices[i], vertices[j]); });
-    const std::string where = "the rim at vertex " + std::to_string(vertices.front());
+        triangulate_loop(corners, [&](std::uint32_t i, std::uint32_t j) { return !has_edge(ring[i], ring[j]); });
+    const std::string where = "the rim at vertex " + std::to_string(ring.front());
     if (faces.empty()) return cannot("every filling of " + where + " needs an edge that is there already");
     std::vector<Vec3> areas;
     Vec3 whole = Vec3::Zero();
@@ -72,7 +72,7 @@ Expected<std::vector<Triangle>> fill_rim(const TriangleMesh& mesh, const Rim& ri
         if (area.norm() > tiny && area.dot(up) < kFold * area.norm()) return cannot("a filling of " + where + " folds over");
     }
     for (Triangle& t : faces) {
-        for (std::uint32_t& corner : t) corner = vertices[corner];
+        for (std::uint32_t& corner : t) corner = ring[corner];
     }
     return faces;
 }
