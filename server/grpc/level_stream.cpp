@@ -17,7 +17,7 @@ LevelParts::LevelParts(service::MeshingService& service, service::ResolutionPlan
     if (!plan_.with_base) return;
     region_parts_ = wire::region_parts(plan_.levels->mrr());
     const bool plain = choice_.encoding == RecordEncoding::kFloat64;
-    if (plain) base_parts_ = wire::base_mesh_parts(plan_.levels->mrr().base);
+    if (plain) base_parts_ = wire::base_mesh_parts(plain_base());
 }
 
 Expected<LevelParts::Step> LevelParts::next(v1::ProgressiveEvent& event) {
@@ -94,7 +94,8 @@ bool LevelParts::next_regions(v1::ProgressiveEvent& event) {
 bool LevelParts::next_plain(v1::ProgressiveEvent& event) {
     const MultiresMesh& mrr = plan_.levels->mrr();
     if (base_part_ < base_parts_) {
-        *event.mutable_base_mesh() = wire::base_mesh_part(mrr.base, base_part_++, mrr.ghosts);
+        *event.mutable_base_mesh() = wire::base_mesh_part(plain_base(), base_part_++, mrr.ghosts);
+        if (plan_.keyframe) event.mutable_base_mesh()->set_first_record(static_cast<std::uint32_t>(plan_.first_record));
         return true;
     }
     if (next_regions(event)) return true;
@@ -115,7 +116,8 @@ Expected<std::unique_ptr<MessageSource<v1::ProgressiveEvent>>> LevelSource::make
     const Expected<service::SessionSnapshot> session = service.snapshot(request.session(), caller);
     if (!session) return session.error();
     const service::ResolutionRequest wanted{request.representation(), request.faces_held(), request.faces(),
-                                            request.resume_from()};
+                                            request.resume_from(),
+                                            request.keyframe() && choice->encoding == RecordEncoding::kFloat64};
     const auto representation = service::find_requested(*session, wanted);
     if (!representation) return representation.error();
     auto news = std::make_shared<News>();

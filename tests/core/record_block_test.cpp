@@ -46,6 +46,17 @@ TEST(RecordBlockTest, Crc32cOfTheCheckString) {
     EXPECT_EQ(crc32c(std::vector<std::byte>(32, std::byte{0})), 0x8A9136AAU);
     EXPECT_EQ(crc32c(std::vector<std::byte>(32, std::byte{0xFF})), 0x62A8AB43U);
     EXPECT_EQ(crc32c({}), 0U);
+    // Bit by bit, for lengths that are no multiple of what is taken at once.
+    Random random(3);
+    std::vector<std::byte> bytes;
+    std::uint32_t crc = 0xFFFFFFFFU;
+    for (int length = 1; length < 300; ++length) {
+        bytes.push_back(static_cast<std::byte>(random.below(256)));
+        crc ^= static_cast<std::uint32_t>(bytes.back());
+        for (int bit = 0; bit < 8; ++bit) crc = crc >> 1U ^ ((crc & 1U) != 0 ? 0x82F63B78U : 0U);
+        ASSERT_EQ(crc32c(bytes), ~crc) << length;
+        ASSERT_EQ(crc32c(std::span(bytes).subspan(bytes.size() / 2)), crc32c(std::vector(bytes.begin() + length / 2, bytes.end())));
+    }
 }
 
 TEST(RecordBlockTest, GoldenBytes) {

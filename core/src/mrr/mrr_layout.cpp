@@ -87,13 +87,13 @@ protected:
                         std::to_string(layout_.splits) + " splits among " + std::to_string(layout_.records) + " records");
     }
 
-    Status check_body(std::uint64_t body_bytes, std::uint32_t crc, const char* body) {
+    Status check_body(std::uint64_t body_bytes, std::uint32_t crc, const char* body) const {
         if (crc32c(bytes_.subspan(at_, body_bytes)) == crc) return Done{};
         return error_at(Cause::kCorrupt, at_, std::string("the checksum of ") + body + " does not fit them");
     }
 
     /// Blocks follow one another from record 0 on.
-    Status check_place(const MrrBlockPlace& block, std::size_t named_at) {
+    Status check_place(const MrrBlockPlace& block, std::size_t named_at) const {
         const std::uint32_t due = layout_.records - read_;
         if (block.first == read_ && block.count > 0 && block.count <= due) return Done{};
         return error_at(Cause::kCorrupt, named_at,
