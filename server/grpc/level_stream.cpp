@@ -46,9 +46,9 @@ Expected<LevelParts::Step> LevelParts::next(v1::ProgressiveEvent& event) {
     return Step::kMessage;
 }
 
-void LevelParts::send(const RecordBlock& block, v1::ProgressiveEvent& event) {
-    *event.mutable_record_block() = wire::to_proto(block);
+void LevelParts::send(RecordBlock block, v1::ProgressiveEvent& event) {
     record_ += block.count;
+    *event.mutable_record_block() = wire::to_proto(std::move(block));
 }
 
 Status LevelParts::take_made() {
@@ -103,7 +103,11 @@ bool LevelParts::next_plain(v1::ProgressiveEvent& event) {
     // No record of any encoding takes less than a byte of its block.
     const std::size_t most = std::min(kMaxBlockBytes, plan_.last_record - record_);
     const std::size_t count = records_that_fit(mrr.records.slice(record_, most), choice_.encoding);
-    send(encode_block(mrr.records.slice(record_, count), static_cast<std::uint32_t>(record_), choice_.encoding), event);
+    std::string memory;  // that of the block before, which is on its way
+    if (event.has_record_block()) memory = std::move(*event.mutable_record_block()->mutable_payload());
+    send(
+        encode_block(mrr.records.slice(record_, count), static_cast<std::uint32_t>(record_), choice_.encoding, std::move(memory)),
+        event);
     return true;
 }
 

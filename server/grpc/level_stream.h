@@ -41,7 +41,7 @@ private:
     [[nodiscard]] const TriangleMesh& plain_base() const { return plan_.keyframe ? *plan_.keyframe : plan_.levels->mrr().base; }
     [[nodiscard]] Status take_made();
     [[nodiscard]] Status begin_errand();
-    void send(const RecordBlock& block, v1::ProgressiveEvent& event);
+    void send(RecordBlock block, v1::ProgressiveEvent& event);
 
     service::MeshingService* service_;
     service::ResolutionPlan plan_;
