@@ -5,12 +5,14 @@
 #include <functional>
 #include <span>
 #include <sstream>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "guard/digest.h"
 #include "service/guarded.h"
+#include "service/memory_use.h"
 #include "vsplit/base/execution_context.h"
 #include "vsplit/io/second_order.h"
 #include "vsplit/io/write_mesh.h"
@@ -46,10 +48,14 @@ Expected<std::optional<MidsideNodes>> nodes_of(const TriangleMesh& mesh, const W
 }
 
 /// \param make_room called where the disk is full
-Expected<MeshFile> write_file(const Wanted& wanted, const std::filesystem::path& directory,
+Expected<MeshFile> write_file(const Wanted& wanted, const std::filesystem::path& directory, service::MemoryBudget& memory,
                               const std::function<void()>& make_room) {
     const Expected<service::OpenedMesh> opened = wanted.mesh.open();
     if (!opened) return opened.error();
+    const std::uint32_t faces = opened->ref.faces;
+    const Expected<service::MemoryBudget::Share> room = memory.borrow(
+        service::memory_to_write(faces, wanted.surface ? 2 : 1), "writing a file of " + std::to_string(faces) + " faces");
+    if (!room) return room.error();
     MeshFile file;
     file.facts.mesh = opened->ref;
     std::shared_ptr<const TriangleMesh> mesh = opened->mesh;
@@ -170,17 +176,18 @@ bool has_room(const std::filesystem::path& directory, std::uint64_t bytes) {
 /// Begins to write the file that `shared` waits for. False when the server is shut down.
 bool begin_file(service::MeshingService& service, const std::weak_ptr<FileShelf>& weak_shelf, const FileName& name,
                 const std::shared_ptr<SharedFile>& shared, const Wanted& wanted) {
-    return service.errand([name, wanted, waited_for = std::weak_ptr(shared), weak_shelf, &options = service.options()] {
+    return service.errand([name, wanted, waited_for = std::weak_ptr(shared), weak_shelf, &service] {
+        const std::filesystem::path& directory = service.options().temp_directory;
         const std::shared_ptr<SharedFile> file = waited_for.lock();
         if (!file) return;
         const auto make_room = [&] {
             if (const std::shared_ptr<FileShelf> shelf = weak_shelf.lock()) shelf->clear();
         };
-        Expected<MeshFile> made = service::guarded([&] { return write_file(wanted, options.temp_directory, make_room); });
+        Expected<MeshFile> made = service::guarded([&] { return write_file(wanted, directory, service.memory(), make_room); });
         const std::shared_ptr<FileShelf> shelf = weak_shelf.lock();
         if (made && shelf) {
             // Memory is for those alone who read it now.
-            const bool rests = made->mapping && has_room(options.temp_directory, made->facts.size);
+            const bool rests = made->mapping && has_room(directory, made->facts.size);
             shelf->made(name, file, made->facts, rests ? FileShelf::Rest::kYes : FileShelf::Rest::kNo);
         }
         file->put(std::move(made));

@@ -35,7 +35,7 @@ void set_life(grpc::ServerBuilder& builder, const ConnectionLife& life) {
 
 GrpcServer::GrpcServer(service::MeshingService& service, const GrpcExtras& extras)
     : ledger_(extras.observer, extras.gate, extras.limits.rpcs),
-      rpcs_(service, ledger_, extras.shelf, extras.upload_patience),
+      rpcs_(service, ledger_, extras.shelf, extras.patience),
       strangers_(extras.observer, extras.gate, extras.meter),
       credentials_(door_credentials(extras.tls, &strangers_)),
       door_(extras.limits.connections, extras.on_connection_refused) {}

@@ -16,6 +16,7 @@
 #include "guard/gatekeeper.h"
 #include "guard/tls_book.h"
 #include "service/meshing_service.h"
+#include "service/patience.h"
 #include "vsplit/base/expected.h"
 
 namespace vsplit::rpc {
@@ -46,8 +47,8 @@ struct GrpcExtras {
     ConnectionLife life{};
     std::shared_ptr<guard::TlsBook> tls{};              ///< null: plain
     std::function<void()> on_connection_refused{};      ///< of a connection over the limit
-    std::chrono::milliseconds upload_patience{30'000};  ///< with an upload that sends nothing
-    ShelfLimits shelf{};                                ///< of files that are downloaded
+    service::Patience patience{};                   ///< with uploads
+    ShelfLimits shelf{};                            ///< of files that are downloaded
 };
 
 /// The gRPC front door: vsplit.v1.Meshing, health (of the server and of that service) and reflection.

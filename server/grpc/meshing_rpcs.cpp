@@ -11,6 +11,7 @@
 #include "grpc/replies.h"
 #include "grpc/upload_stream.h"
 #include "service/guarded.h"
+#include "service/memory_use.h"
 #include "service/session_features.h"
 #include "vsplit/quality/mesh_quality.h"
 #include "wire/convert.h"
@@ -97,6 +98,9 @@ Status get_quality(service::MeshingService& service, const service::Caller& call
     if (!picked) return picked.error();
     const Expected<service::OpenedMesh> opened = picked->open();
     if (!opened) return opened.error();
+    const Expected<service::MemoryBudget::Share> room = 
+        service.memory().borrow(service::memory_to_measure(opened->ref.faces), "measuring the quality of this mesh");
+    if (!room) return room.error();
     if (context.IsCancelled()) return nobody_waits();
     const Quality quality = opened->quality();
     if (context.IsCancelled()) return nobody_waits();
@@ -164,7 +168,7 @@ grpc::ServerUnaryReactor* MeshingRpcs::CreateSession(Context* context, const v1:
 }
 
 grpc::ServerReadReactor<v1::UploadMeshRequest>* MeshingRpcs::UploadMesh(Context* context, v1::Session* response) {
-    return new UploadStream(service_, RpcWatch(ledger_, *context, "UploadMesh", ""), response, upload_patience_);
+    return new UploadStream(service_, RpcWatch(ledger_, *context, "UploadMesh", ""), response, patience_);
 }
 
 grpc::ServerUnaryReactor* MeshingRpcs::GetSession(Context* context, const v1::GetSessionRequest* request, v1::Session* response) {

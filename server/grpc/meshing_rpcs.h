@@ -7,6 +7,7 @@
 #include "grpc/file_shelf.h"
 #include "grpc/rpc_ledger.h"
 #include "service/meshing_service.h"
+#include "service/patience.h"
 #include "vsplit/base/expected.h"
 #include "vsplit/v1/meshing.grpc.pb.h"
 
@@ -15,10 +16,9 @@ namespace vsplit::rpc {
 /// The rpcs of vsplit.v1.Meshing, as the proto describes them, on top of the service. Nothing heavy is done on gRPC's threads.
 class MeshingRpcs final : public v1::Meshing::CallbackService {
 public:
-    /// Service and ledger must outlive the rpcs. \param upload_patience with an upload that sends nothing
-    MeshingRpcs(service::MeshingService& service, RpcLedger& ledger, const ShelfLimits& shelf,
-                std::chrono::milliseconds upload_patience)
-        : service_(service), ledger_(ledger), shelf_(std::make_shared<FileShelf>(shelf)), upload_patience_(upload_patience) {}
+    /// Service and ledger must outlive the rpcs. \param patience with uploads
+    MeshingRpcs(service::MeshingService& service, RpcLedger& ledger, const ShelfLimits& shelf, const service::Patience& patience)
+        : service_(service), ledger_(ledger), shelf_(std::make_shared<FileShelf>(shelf)), patience_(patience) {}
 
     using Context = grpc::CallbackServerContext;
     using UnaryReactor = grpc::ServerUnaryReactor;
@@ -60,7 +60,7 @@ private:
     service::MeshingService& service_;
     RpcLedger& ledger_;
     const std::shared_ptr<FileShelf> shelf_;
-    const std::chrono::milliseconds upload_patience_;
+    const service::Patience patience_;
 };
 
 }  // namespace vsplit::rpc

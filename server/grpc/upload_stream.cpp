@@ -38,7 +38,7 @@ Error changed(const char* field) {
 }  // namespace
 
 UploadStream::UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response,
-                           std::chrono::milliseconds patience)
+                           const service::Patience& patience)
     : service_(service), watch_(std::move(watch)), response_(response), patience_(patience) {
     if (const Status open = watch_.admit(); open) {
         read();
@@ -49,7 +49,8 @@ UploadStream::UploadStream(service::MeshingService& service, RpcWatch watch, v1:
 
 Error UploadStream::stalled() const {
     return {Cause::kUnavailable,
-            "nothing came for " + std::to_string(patience_.count() / 1000) + " s; the session is as it was, send the mesh again",
+            "the upload stopped after " + std::to_string(received_) + " bytes or came too slowly; " + patience_.accepted() +
+                "; the session is as it was, send the mesh again",
             ""};
 }
 
@@ -57,7 +58,9 @@ Error UploadStream::stalled() const {
 void UploadStream::read() {
     reading_ = std::make_shared<std::atomic<bool>>(true);
     alarm_.emplace();
-    alarm_->Set(std::chrono::system_clock::now() + patience_, [this, reading = reading_](bool rang) {
+    const auto now = std::chrono::steady_clock::now();
+    const auto left = patience_.deadline(start_, now, received_) - now;
+    alarm_->Set(std::chrono::system_clock::now() + left, [this, reading = reading_](bool rang) {
         if (rang && reading->exchange(false)) end(stalled());
     });
     StartRead(&part_);
@@ -88,6 +91,7 @@ void UploadStream::read_on() {
 }
 
 Status UploadStream::take_part() {
+    received_ += part_.data().size();
     Status ready = upload_ ? check_repeated() : begin();
     if (!ready) return ready;
     return upload_->append(part_.offset(), std::as_bytes(std::span(part_.data())));

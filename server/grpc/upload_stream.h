@@ -5,21 +5,23 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "grpc/rpc_ledger.h"
 #include "service/meshing_service.h"
+#include "service/patience.h"
 #include "vsplit/v1/meshing.grpc.pb.h"
 
 namespace vsplit::rpc {
 
 /// UploadMesh: one part at a time goes from the network to the disk; the next is read when it is there, so an upload of any size
-/// takes one part of memory. Reading the mesh is an errand. A client that sends nothing for `patience` is not waited
-/// for. Deletes itself.
+/// takes one part of memory. Reading the mesh is an errand. A client that tries `patience` is not waited for. Deletes itself.
 class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest> {
 public:
-    UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response, std::chrono::milliseconds patience);
+    UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response,
+                 const service::Patience& patience);
 
     void OnReadDone(bool ok) override;
     void OnSendInitialMetadataDone(bool ok) override;
@@ -44,7 +46,9 @@ private:
     v1::UploadMeshRequest first_;  // without its data
     std::optional<service::Upload> upload_;
     std::atomic<bool> cancelled_{false};
-    const std::chrono::milliseconds patience_;
+    const service::Patience patience_;
+    const service::Patience::Time start_ = std::chrono::steady_clock::now();
+    std::uint64_t received_ = 0;  // bytes
     std::optional<grpc::Alarm> alarm_;
     std::shared_ptr<std::atomic<bool>> reading_;  // whoever clears it, the read or its alarm, goes on
 };

@@ -62,6 +62,8 @@ Metrics::Metrics()
       disk_(gauge(registry_, "vsplit_disk_bytes", "Meshes and representations in the data directory")),
       disk_limit_(gauge(registry_, "vsplit_disk_limit_bytes", "What they may take together, --max-disk-bytes; 0: no limit")),
       set_aside_(gauge(registry_, "vsplit_sessions_set_aside", "Sessions in the data directory that are damaged and not served")),
+      refuses_writes_(gauge(registry_, "vsplit_data_dir_refuses_writes",
+                            "1 while nothing can be written to the data directory: it is full or read-only; looked at every ten seconds")),
       resident_(gauge(registry_, "process_resident_memory_bytes", "Memory of the process that is in RAM")),
       descriptors_(gauge(registry_, "process_open_fds", "Open file descriptors")),
       most_descriptors_(gauge(registry_, "process_max_fds", "Most open file descriptors")),
@@ -115,6 +117,7 @@ std::string Metrics::text(const service::ServiceLoad& load) {
     disk_.Set(static_cast<double>(load.archive.bytes));
     disk_limit_.Set(static_cast<double>(load.archive.limit));
     set_aside_.Set(static_cast<double>(load.archive.set_aside));
+    refuses_writes_.Set(load.archive.writable ? 0 : 1);
     const ProcessUse use = process_use();
     resident_.Set(static_cast<double>(use.resident_bytes));
     descriptors_.Set(static_cast<double>(use.descriptors));

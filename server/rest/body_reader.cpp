@@ -22,9 +22,7 @@ std::optional<std::uint64_t> BodyReader::declared_size() const {
 }
 
 std::chrono::steady_clock::time_point BodyReader::deadline() const {
-    const auto now = std::chrono::steady_clock::now();
-    const auto earned = std::chrono::seconds(received_ / limits_.slowest_body);
-    return std::min(now + limits_.stall_time, start_ + limits_.stall_time + earned);
+    return limits_.patience.deadline(start_, std::chrono::steady_clock::now(), received_);
 }
 
 Awaitable<ErrorCode> BodyReader::say_continue() {
@@ -38,9 +36,8 @@ Awaitable<ErrorCode> BodyReader::say_continue() {
 Error BodyReader::failure(const ErrorCode& code) const {
     if (stalled_) {
         return {Cause::kDeadlineExceeded,
-                "the body stopped after " + std::to_string(received_) + " bytes or came too slowly; accepted are pauses of " +
-                    std::to_string(std::chrono::duration_cast<std::chrono::seconds>(limits_.stall_time).count()) + " s, and " +
-                    std::to_string(limits_.slowest_body) + " bytes a second",
+                "the body stopped after " + std::to_string(received_) + " bytes or came too slowly; " +
+                    limits_.patience.accepted(),
                 ""};
     }
     const bool broken = code.category() == make_error_code(http::error::bad_chunk).category() &&
@@ -54,7 +51,7 @@ Error BodyReader::failure(const ErrorCode& code) const {
 
 Awaitable<Expected<std::size_t>> BodyReader::read_some(std::span<char> room) {
     if (client_waits_) {
-        stream_.expires_after(limits_.stall_time);
+        stream_.expires_after(limits_.patience.stall);
         if (const ErrorCode failed = co_await say_continue(); failed) co_return failure(failed);
     }
     auto& body = parser_.get().body();

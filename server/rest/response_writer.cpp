@@ -66,7 +66,7 @@ Awaitable<bool> ResponseWriter::begin(const ResponseHead& head) {
     const http::response<http::empty_body> header = make_header(head);
     if (head.gzip && !manner_.head_only) gzip_ = std::make_unique<Gzip>();
     http::response_serializer<http::empty_body> serializer(header);
-    stream_.expires_after(limits_.stall_time);
+    stream_.expires_after(limits_.patience.stall);
     ErrorCode failed;
     co_await http::async_write_header(stream_, serializer, into(failed));
     failed_ = failed && failed != http::error::end_of_stream;
@@ -81,7 +81,7 @@ Awaitable<bool> ResponseWriter::send(const Parts& all_parts) {
     std::size_t sent = 0;
     const std::size_t all = net::buffer_size(parts);
     while (sent < all && !failed) {
-        stream_.expires_after(limits_.stall_time);
+        stream_.expires_after(limits_.patience.stall);
         const std::size_t now = co_await stream_.async_write_some(parts, into(failed));
         sent += now;
         std::size_t skip = now;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "service/patience.h"
+
 namespace vsplit::rest {
 
 /// What one client may use up, and what all together may.
@@ -21,8 +23,7 @@ struct RestLimits {
     std::uint64_t all_json_bytes = std::uint64_t{256} << 20;  ///< that all of them take at a time
     std::chrono::milliseconds header_time{10'000};            ///< for a whole header, from its first byte
     std::chrono::milliseconds idle_time{60'000};              ///< between two requests
-    std::chrono::milliseconds stall_time{30'000};             ///< without a byte of a body, or with none taken of an answer
-    std::uint64_t slowest_body = 1024;                        ///< bytes a second, after stall_time
+    service::Patience patience{};                             ///< with a body, and with an answer of which nothing is taken
 };
 
 struct RestOptions {

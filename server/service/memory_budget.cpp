@@ -6,11 +6,17 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "service/limits.h"
 
 namespace vsplit::service {
+namespace {
+
+constexpr int kMostRounds = 1000;
+
+}  // namespace
 
 MemoryBudget::Share::Share(Share&& other) noexcept
     : budget_(std::exchange(other.budget_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
@@ -25,20 +31,42 @@ void MemoryBudget::Share::give_back() {
     if (budget_ == nullptr) return;
     const std::lock_guard lock(budget_->mutex_);
     budget_->used_ -= bytes_;
+    ++budget_->changes_;
     budget_ = nullptr;
 }
 
 Expected<MemoryBudget::Share> MemoryBudget::reserve(std::uint64_t bytes, std::string_view what) {
-    if (take_if_room(bytes)) return Share(*this, bytes);
-    for (const std::weak_ptr<Evictable>& thing : least_recent_first()) {
-        evict(thing);
-        if (take_if_room(bytes)) return Share(*this, bytes);
+    // What is found in use one after another need not have been so at one time: while others come and go, look again.
+    for (int round = 0; round < kMostRounds; ++round) {
+        const std::uint64_t before = changes();
+        if (take_if_room(bytes, limit_) || take_after_evicting(bytes)) return Share(*this, bytes);
+        if (changes() == before) break;
+        std::this_thread::yield();
     }
     const Use now = use();
     return Error{Cause::kLimitExceeded,
                  std::string(what) + " takes about " + std::to_string(bytes) + " bytes of memory; " + std::to_string(now.bytes) +
                      " of the server's limit max_memory_bytes, " + std::to_string(now.limit) + ", are in use",
                  "", bytes <= now.limit ? kRetryAfter : 0};
+}
+
+bool MemoryBudget::take_after_evicting(std::uint64_t bytes) {
+    for (const std::weak_ptr<Evictable>& thing : least_recent_first()) {
+        evict(thing);
+        if (take_if_room(bytes, limit_)) return true;
+    }
+    return false;
+}
+
+std::uint64_t MemoryBudget::changes() const {
+    const std::lock_guard lock(mutex_);
+    return changes_;
+}
+
+Expected<MemoryBudget::Share> MemoryBudget::borrow(std::uint64_t bytes, std::string_view what) {
+    Expected<Share> share = reserve(bytes, what);
+    if (!share && take_if_room(bytes, limit_ + limit_ / 4)) return Share(*this, bytes);
+    return share;
 }
 
 MemoryBudget::Share MemoryBudget::charge(std::uint64_t bytes) {
@@ -57,6 +85,7 @@ MemoryBudget::Share MemoryBudget::charge(std::uint64_t bytes) {
 
 void MemoryBudget::touch(const std::shared_ptr<Evictable>& thing) {
     const std::lock_guard lock(mutex_);
+    ++changes_;
     const auto place = places_.find(thing.get());
     if (place != places_.end()) {
         entries_.splice(entries_.begin(), entries_, place->second);
@@ -79,9 +108,9 @@ MemoryBudget::Use MemoryBudget::use() const {
     return {used_, limit_, evictions_};
 }
 
-bool MemoryBudget::take_if_room(std::uint64_t bytes) {
+bool MemoryBudget::take_if_room(std::uint64_t bytes, std::uint64_t limit) {
     const std::lock_guard lock(mutex_);
-    if (limit_ != 0 && (bytes > limit_ || used_ > limit_ - bytes)) return false;
+    if (limit_ != 0 && (bytes > limit || used_ > limit - bytes)) return false;
     used_ += bytes;
     return true;
 }

@@ -50,6 +50,10 @@ public:
     /// Room for what does not exist yet. \return LIMIT_EXCEEDED naming max_memory_bytes and `what`. O(things kept).
     [[nodiscard]] Expected<Share> reserve(std::uint64_t bytes, std::string_view what);
 
+    /// Room for what is soon gone again, as a file that is written for a reader. It may go a quarter over the limit, so that memory
+    /// full of what cannot leave keeps nobody from reading it. \return as `reserve`.
+    [[nodiscard]] Expected<Share> borrow(std::uint64_t bytes, std::string_view what);
+
     /// Room for what is there already: others give way as far as they can. O(things kept).
     [[nodiscard]] Share charge(std::uint64_t bytes);
 
@@ -72,7 +76,9 @@ private:
         std::weak_ptr<Evictable> thing;
     };
 
-    [[nodiscard]] bool take_if_room(std::uint64_t bytes);
+    [[nodiscard]] bool take_if_room(std::uint64_t bytes, std::uint64_t limit);
+    [[nodiscard]] bool take_after_evicting(std::uint64_t bytes);
+    [[nodiscard]] std::uint64_t changes() const;
     [[nodiscard]] bool fits() const;
     void evict(const std::weak_ptr<Evictable>& thing);
     [[nodiscard]] std::vector<std::weak_ptr<Evictable>> least_recent_first() const;
@@ -81,6 +87,7 @@ private:
     mutable std::mutex mutex_;  // never held while a thing is asked to let go
     std::uint64_t used_ = 0;
     std::uint64_t evictions_ = 0;
+    std::uint64_t changes_ = 0;  // uses of things and memory given back, so far
     std::list<Entry> entries_;  // most recent first
     std::unordered_map<const Evictable*, std::list<Entry>::iterator> places_;
 };

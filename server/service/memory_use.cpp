@@ -12,6 +12,9 @@ namespace {
 constexpr std::uint64_t kToSimplify = 260;
 constexpr std::uint64_t kToRead = 70;
 constexpr std::uint64_t kToRepair = 270;
+constexpr std::uint64_t kToMeasure = 100;
+constexpr std::uint64_t kToWrite = 250;
+constexpr std::uint64_t kToWriteSecondOrder = 550;
 
 // Of a file, a face takes no less.
 constexpr std::uint64_t kStlFace = 50;
@@ -47,6 +50,12 @@ std::uint64_t memory_to_read(std::span<const std::byte> file, bool repair) {
 }
 
 std::uint64_t memory_to_read(std::uint64_t faces, bool repair) { return faces * (repair ? kToRepair : kToRead); }
+
+std::uint64_t memory_to_measure(std::uint64_t faces) { return kToMeasure * faces; }
+
+std::uint64_t memory_to_write(std::uint64_t faces, unsigned order) {
+    return faces * (order == 2 ? kToWriteSecondOrder : kToWrite);
+}
 
 std::uint64_t memory_to_simplify(std::uint64_t faces) { return kToSimplify * faces; }
 

@@ -22,6 +22,12 @@ namespace vsplit::service {
 [[nodiscard]] std::uint64_t memory_to_read(std::span<const std::byte> file, bool repair);
 [[nodiscard]] std::uint64_t memory_to_read(std::uint64_t faces, bool repair);
 
+/// What is taken while the quality of a mesh is measured, or its features are looked for, beside the mesh.
+[[nodiscard]] std::uint64_t memory_to_measure(std::uint64_t faces);
+
+/// What writing a file takes while it goes on, beside the mesh. `order` of its elements: 1 or 2.
+[[nodiscard]] std::uint64_t memory_to_write(std::uint64_t faces, unsigned order);
+
 /// What a method takes while it runs, the result included, for `faces` after subdivision.
 [[nodiscard]] std::uint64_t memory_to_simplify(std::uint64_t faces);
 

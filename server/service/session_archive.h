@@ -34,11 +34,19 @@ struct SessionRecord {
     std::vector<UnfinishedMethod> unfinished{};
 };
 
+/// A session that is damaged: it is kept and not served.
+struct DamagedSession {
+    std::string id;
+    std::string owner;
+    std::string why;
+};
+
 /// What an archive holds when a server begins.
 struct Restored {
     std::vector<SessionRecord> sessions;  ///< by number
     std::uint64_t last_number = 0;        ///< the largest in use, also by what is not served
     std::chrono::milliseconds now{};      ///< service time
+    std::vector<DamagedSession> damaged;
 };
 
 /// How much an archive holds.
@@ -46,6 +54,7 @@ struct ArchiveUse {
     std::uint64_t bytes = 0;
     std::uint64_t limit = 0;      ///< bytes; 0: none
     std::uint32_t set_aside = 0;  ///< sessions, and indices of sessions, that are damaged; they are kept and not served
+    bool writable = true;         ///< whether the last that was to be written, at most a sweep ago, could be
 };
 
 /// Where sessions outlive the server. Thread-safe. Every call but `use` may wait for a disk.

@@ -49,6 +49,9 @@ Expected<FeaturesFound> list_features_of(MeshingService& service, std::string_vi
     return guarded([&]() -> Expected<FeaturesFound> {
         const Expected<std::shared_ptr<const TriangleMesh>> mesh = (*source)->mesh->get();
         if (!mesh) return mesh.error();
+        const Expected<MemoryBudget::Share> room =
+            service.memory().borrow(memory_to_measure((*mesh)->face_count()), "looking for features of this mesh");
+        if (!room) return room.error();
         Expected<std::vector<ShapeFeature>> features = list_features(**mesh, search);
         if (!features) return features.error();
         return FeaturesFound{*std::move(features), (*source)->report.unit};

@@ -35,6 +35,7 @@ Status SessionStore::restore() {
     if (!restored) return restored.error();
     began_ = Session::Clock::now() - restored->now;
     last_number_ = restored->last_number;
+    for (DamagedSession& session : restored->damaged) damaged_.emplace(session.id, std::move(session));
     for (SessionRecord& record : restored->sessions) {
         ++by_owner_[record.owner];
         ++count_;
@@ -77,6 +78,16 @@ Status SessionStore::require_room_locked(std::string_view owner) const {
         Cause::kLimitExceeded,
         "the server holds " + std::to_string(count_) + " sessions, its limit max_sessions; delete one, or wait until one expires",
         "", kRetryAfter};
+}
+
+/// Why nothing is served under that id. Lock held.
+Error SessionStore::not_served(std::string_view id, std::string_view owner) const {
+    const auto damaged = damaged_.find(std::string(id));
+    if (damaged == damaged_.end() || damaged->second.owner != owner) return unknown_session(id);
+    return {Cause::kCorrupt,
+            "session " + quoted(id) + " is damaged and was set aside: " + damaged->second.why +
+                "; ask who runs the server for a backup, or upload the mesh to a new session",
+            "session"};
 }
 
 std::chrono::milliseconds SessionStore::service_time(Session::Clock::time_point time) const {
@@ -125,7 +136,7 @@ Expected<std::shared_ptr<Session>> SessionStore::find(std::string_view id, std::
     const std::lock_guard lock(mutex_);
     if (ended_) return *ended_;
     const auto number = numbers_.find(std::string(id));
-    if (number == numbers_.end()) return unknown_session(id);
+    if (number == numbers_.end()) return not_served(id, owner);
     const std::shared_ptr<Session>& session = sessions_.at(number->second);
     if (session->owner() != owner || session->expired()) return unknown_session(id);
     session->touch();

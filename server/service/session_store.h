@@ -40,7 +40,8 @@ public:
     [[nodiscard]] Expected<std::shared_ptr<Session>> create(std::shared_ptr<const SourceMesh> source,
                                                             const std::string& owner = {});
 
-    /// A use of the session: it lives its full time again. \return NOT_FOUND, also for a session of another owner.
+    /// A use of the session: it lives its full time again. \return NOT_FOUND, also for a session of another owner; CORRUPT for one
+    /// that the archive found damaged.
     [[nodiscard]] Expected<std::shared_ptr<Session>> find(std::string_view id, std::string_view owner = {});
 
     /// Closes and forgets the session. \return as `find`; what SessionArchive::remove returns, and it is there still.
@@ -71,6 +72,7 @@ public:
 private:
     using Sessions = std::map<std::uint64_t, std::shared_ptr<Session>>;
 
+    [[nodiscard]] Error not_served(std::string_view id, std::string_view owner) const;
     [[nodiscard]] Status require_room_locked(std::string_view owner) const;
     [[nodiscard]] Expected<std::uint64_t> begin_session(const std::string& owner);
     void publish(const std::shared_ptr<Session>& session);
@@ -85,6 +87,7 @@ private:
     mutable std::mutex mutex_;  // not held while the archive is called
     Sessions sessions_;         // by number
     std::unordered_map<std::string, std::uint64_t> numbers_;
+    std::unordered_map<std::string, DamagedSession> damaged_;     // by id; of when the server began
     std::map<std::string, std::uint32_t, std::less<>> by_owner_;  // sessions, with those on their way; none is no entry
     std::size_t count_ = 0;                                       // sessions, with those on their way
     std::uint64_t last_number_ = 0;

@@ -102,12 +102,16 @@ Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
         Expected<service::MethodRequest> request = read_request(row.info);
         if (record != records.end() && request) record->second.unfinished.push_back({row.number, *std::move(request)});
     }
-    service::Restored restored{{}, contents->last_session, milliseconds(contents->now.value_or(0))};
+    service::Restored restored{{}, contents->last_session, milliseconds(contents->now.value_or(0)), {}};
     if (!contents->now) forget_expiry(records);
     for (const SessionRow& row : contents->sessions) {
         const auto why = damage.find(row.number);
         judge(row, why == damage.end() ? nullptr : &why->second);
-        if (why == damage.end()) restored.sessions.push_back(std::move(records.at(row.number)));
+        if (why == damage.end()) {
+            restored.sessions.push_back(std::move(records.at(row.number)));
+        } else {
+            restored.damaged.push_back({row.id, row.owner, why->second.message});
+        }
     }
     put_unknown_aside(keys_of(*blobs));
     collect();
@@ -273,7 +277,9 @@ Status StoredSessions::note_time(milliseconds now, const std::vector<std::pair<s
     std::vector<std::pair<std::uint64_t, std::int64_t>> rows;
     rows.reserve(expire.size());
     for (const auto& [session, time] : expire) rows.emplace_back(session, time.count());
-    return index_->note_time(now.count(), rows);
+    Status noted = index_->note_time(now.count(), rows);
+    writable_ = noted.has_value();
+    return noted;
 }
 
 Expected<std::uint64_t> StoredSessions::add_job(std::uint64_t session, const service::MethodRequest& request) {
@@ -282,6 +288,6 @@ Expected<std::uint64_t> StoredSessions::add_job(std::uint64_t session, const ser
 
 Status StoredSessions::remove_jobs(const std::vector<std::uint64_t>& jobs) { return index_->remove_jobs(jobs); }
 
-service::ArchiveUse StoredSessions::use() const { return {blobs_->bytes(), quota_, aside_}; }
+service::ArchiveUse StoredSessions::use() const { return {blobs_->bytes(), quota_, aside_, writable_}; }
 
 }  // namespace vsplit::store

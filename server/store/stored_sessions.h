@@ -62,6 +62,7 @@ private:
     const std::uint64_t quota_;
     const std::shared_ptr<const Report> report_;
     std::atomic<std::uint32_t> aside_;  // with indices, whose sessions nobody can count
+    std::atomic<bool> writable_{true};
     // Shared from before a blob is put until the index names it; alone while unused ones are removed.
     std::shared_mutex collecting_;
 };

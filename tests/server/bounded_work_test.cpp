@@ -57,6 +57,19 @@ TEST(BoundedWorkTest, AMeshThatMemoryHasNoRoomForIsRefused) {
     EXPECT_TRUE(create_session(server.stub(), file_of(cube())).status.ok());
 }
 
+TEST(BoundedWorkTest, FilesThatMemoryHasNoRoomForAreRefused) {
+    service::ServiceOptions options = small_server();
+    options.limits.memory_bytes = 3 << 20;
+    TestServer server(options);
+    const std::string session = session_with(server.stub(), icosphere(5));  // 20,480 faces: 2.4 MB to read, 5.1 MB to write
+    const auto file = download(server.stub(), session);
+    EXPECT_EQ(file.status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+    EXPECT_THAT(file.status.error_message(), HasSubstr("max_memory_bytes"));
+    EXPECT_TRUE(get_session(server.stub(), session).status.ok());
+    const std::string small = session_with(server.stub(), icosphere(2));
+    EXPECT_TRUE(download(server.stub(), small).status.ok());
+}
+
 class SameRequestTest : public ::testing::Test {
 protected:
     std::size_t representations() { return get_session(server_.stub(), session_).message.representations_size(); }

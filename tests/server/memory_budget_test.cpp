@@ -56,10 +56,22 @@ TEST(MemoryBudgetTest, NamesTheLimitAndWhetherWaitingHelps) {
     EXPECT_EQ(never.error().retry_after, 0U);
 }
 
+TEST(MemoryBudgetTest, WhatIsSoonGoneMayGoAQuarterOver) {
+    MemoryBudget budget(100);
+    const auto held = budget.reserve(90, "this");
+    const auto borrowed = budget.borrow(35, "a file");
+    EXPECT_TRUE(borrowed);
+    EXPECT_EQ(budget.use().bytes, 125U);
+    EXPECT_FALSE(budget.borrow(1, "another"));
+    EXPECT_FALSE(budget.reserve(1, "that"));
+    EXPECT_TRUE(MemoryBudget(0).borrow(1'000, "a file"));
+}
+
 TEST(MemoryBudgetTest, HugeSizesDoNotWrapAround) {
     MemoryBudget budget(100);
     const auto held = budget.reserve(60, "this");
     EXPECT_FALSE(budget.reserve(~std::uint64_t{0} - 10, "that"));
+    EXPECT_FALSE(budget.borrow(~std::uint64_t{0} - 10, "that"));
 }
 
 TEST(KeptTest, WhatWasUsedLeastRecentlyLeavesFirstAndComesBack) {

@@ -558,7 +558,7 @@ TEST(RestLimitsTest, LimitsThatPassAre429AndSayWhenToTryAgain) {
 TEST(RestLimitsTest, SlowAndSuperfluousClientsAreShutOut) {
     rest::RestOptions options;
     options.limits.header_time = std::chrono::milliseconds(200);
-    options.limits.stall_time = std::chrono::milliseconds(300);
+    options.limits.patience.stall = std::chrono::milliseconds(300);
     options.limits.idle_time = std::chrono::milliseconds(250);
     options.limits.connections = 3;
     options.limits.requests = 2;
@@ -580,7 +580,7 @@ TEST(RestLimitsTest, SlowAndSuperfluousClientsAreShutOut) {
 
 TEST(RestLimitsTest, ABodyThatStallsIsAnswered) {
     rest::RestOptions options;
-    options.limits.stall_time = std::chrono::milliseconds(300);
+    options.limits.patience.stall = std::chrono::milliseconds(300);
     RestFixture server(small_server(), options);
     const std::string id = session_with(server.grpc().stub(), cube());
     const std::string session = "/v1/sessions/" + id;

@@ -267,7 +267,9 @@ TEST_F(StoredSessionsTest, ADamagedSessionIsSetAsideAndTheOthersAreServed) {
         EXPECT_EQ(run.told.empty(), restart == 1) << run.told;
         const std::string expected = restart == 0 ? "session " + damaged + " is damaged and set aside" : "";
         EXPECT_THAT(run.told, HasSubstr(expected));
-        EXPECT_FALSE(run.store.find(damaged));
+        EXPECT_EQ(run.store.find(damaged).error().cause, Cause::kCorrupt);
+        EXPECT_THAT(run.store.find(damaged).error().message, HasSubstr("has 100 bytes instead of"));
+        EXPECT_EQ(run.store.find(damaged, "ann").error().cause, Cause::kNotFound) << "it is somebody else's";
         EXPECT_TRUE(run.store.find(sound));
         EXPECT_EQ(run.archive->use().set_aside, 1U);
         EXPECT_EQ(blobs().size(), files) << "what is left of it is kept";

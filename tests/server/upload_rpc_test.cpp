@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "test_client.h"
@@ -57,7 +58,7 @@ TEST_F(UploadRpcTest, ReplacesTheMeshAndDropsRepresentations) {
 
 TEST(UploadStallTest, AnUploadThatSendsNothingEnds) {
     rpc::GrpcExtras extras;
-    extras.upload_patience = std::chrono::milliseconds(300);
+    extras.patience.stall = std::chrono::milliseconds(300);
     TestServer server(small_server(), extras);
     const std::string session = create_session(server.stub()).message.id();
     v1::UploadMeshRequest part;
@@ -72,6 +73,27 @@ TEST(UploadStallTest, AnUploadThatSendsNothingEnds) {
         EXPECT_TRUE(failed_with(writer->Finish(), Cause::kUnavailable, "")) << starts;
     }
     EXPECT_TRUE(upload(server.stub(), session, file_of(torus(40, 20))).status.ok()) << "nothing is left of it";
+}
+
+TEST(UploadStallTest, AnUploadThatTricklesEnds) {
+    rpc::GrpcExtras extras;
+    extras.patience = {std::chrono::milliseconds(500), 1024};
+    TestServer server(small_server(), extras);
+    v1::UploadMeshRequest part;
+    part.set_session(create_session(server.stub()).message.id());
+    part.set_data("v");
+    v1::Session response;
+    const auto context = call();
+    const auto writer = server.stub().UploadMesh(context.get(), &response);
+    int parts = 0;
+    for (; parts < 100 && writer->Write(part); ++parts) {
+        part.set_offset(part.offset() + 1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));  // a tenth of what is waited for
+    }
+    EXPECT_LT(parts, 100);
+    const grpc::Status status = writer->Finish();
+    EXPECT_TRUE(failed_with(status, Cause::kUnavailable, ""));
+    EXPECT_THAT(status.error_message(), HasSubstr("1024 bytes a second"));
 }
 
 TEST_F(UploadRpcTest, TheDownloadIsTheUploadExactly) {
