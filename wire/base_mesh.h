@@ -62,6 +62,8 @@ public:
     /// The positions that the stream has, and by how much they may be off, as the first part said.
     [[nodiscard]] const PositionGrid& grid() const { return grid_; }
     [[nodiscard]] double max_error() const { return max_error_; }
+    /// Of a keyframe the number of the first record that it has not in it, as the first part said; otherwise 0.
+    [[nodiscard]] std::uint32_t first_record() const { return first_record_; }
 
 private:
     [[nodiscard]] Status check_counts(const v1::BaseMesh& part);
@@ -79,6 +81,7 @@ private:
     bool complete_ = false;
     PositionGrid grid_;
     double max_error_ = 0;
+    std::uint32_t first_record_ = 0;
     std::string packed_;
     TriangleMesh mesh_;
 };

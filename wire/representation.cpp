@@ -92,10 +92,18 @@ v1::InterruptedMethod describe_interrupted(const std::string& source_representat
 }
 
 void describe_resolution(const TriangleMesh& mesh, v1::Representation& representation) {
-    representation.set_faces(mesh.face_count());
-    *representation.mutable_quality() = to_proto(measure_quality(mesh));
+    describe_quality(measure_quality(mesh), representation);
+    describe_bounds(mesh, representation);
+}
+
+void describe_quality(const Quality& quality, v1::Representation& representation) {
+    representation.set_faces(quality.faces);
+    *representation.mutable_quality() = to_proto(quality);
     representation.mutable_quality()->set_unit(representation.unit());
     representation.clear_slivers();  // they were told with the source at hand, and name faces of another resolution
+}
+
+void describe_bounds(const TriangleMesh& mesh, v1::Representation& representation) {
     if (!representation.has_control_options()) return;
     const Expected<ControlOptions> options = from_proto(representation.control_options());
     if (!options) return;  // a mode of a later version: its bounds cannot be judged here

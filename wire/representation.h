@@ -22,4 +22,8 @@ namespace vsplit::wire {
 /// slivers, goes. O(faces log faces).
 void describe_resolution(const TriangleMesh& mesh, v1::Representation& representation);
 
+/// The two parts of it, for who has the figures already: the quality of the mesh, and after it which bounds of Control hold.
+void describe_quality(const Quality& quality, v1::Representation& representation);
+void describe_bounds(const TriangleMesh& mesh, v1::Representation& representation);
+
 }  // namespace vsplit::wire

@@ -85,6 +85,21 @@ void add_input(CLI::App& verb, Arguments& a, const char* what) {
              "Unit of the lengths in IN, where it does not say it: um, mm, cm, m, in or ft. 3MF says it; default: not known");
 }
 
+/// "quantised" alone is the usual number of bits.
+std::optional<EncodingChoice> encoding_in(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const std::string name = text.substr(0, colon);
+    EncodingChoice choice;
+    if (name == "float32") choice.encoding = RecordEncoding::kFloat32;
+    if (name == "quantised") choice.encoding = RecordEncoding::kQuantised;
+    if (name != "float64" && choice.encoding == RecordEncoding::kFloat64) return {};
+    if (colon != std::string::npos && (!CLI::detail::lexical_cast(text.substr(colon + 1), choice.bits) || choice.bits == 0))
+        return {};
+    const Expected<EncodingChoice> checked = check_encoding(choice);
+    if (!checked) return {};
+    return *checked;
+}
+
 void add_output(CLI::App& verb, Arguments& a) {
     verb.add_option(
             "-o,--output", a.outputs,
@@ -103,6 +118,19 @@ void add_output(CLI::App& verb, Arguments& a) {
                     ".vsplit file on its finest resolution (msh, inp, bdf, vtk, vtu). Default 1")
         ->check(CLI::Range(1U, 2U).description(""))
         ->type_name("N");
+    verb.add_option_function<std::string>(
+            "--encoding", [&a](const std::string& text) { a.encoding = encoding_in(text); },
+            "Of positions in .vsplit files OUT: float64, exact; float32; or quantised:N, rounded to a grid of N bits, 10 to 24, "
+            "over "
+            "the mesh. Default: as IN where that is one, else float64")
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+                return encoding_in(text)
+                           ? std::string()
+                           : "'" + text + "' is given; accepted are float64, float32 and quantised:10 to quantised:24";
+            },
+            ""))
+        ->type_name("E");
     add_unit(verb, "--output-unit", a.output_unit,
              "Convert the lengths in mesh files OUT to this unit; that of IN must be known. Default: as IN");
     verb.add_flag("--json", a.json, "Print one JSON document on the standard output");

@@ -8,6 +8,7 @@
 
 #include "vsplit/mesh/length_unit.h"
 #include "vsplit/method/method_options.h"
+#include "vsplit/mrr/position_grid.h"
 #include "vsplit/shapes/remove_features.h"
 #include "vsplit/v1/meshing.pb.h"
 
@@ -20,8 +21,9 @@ struct Arguments {
     Verb verb = Verb::kInfo;
     std::string input;  ///< file; empty or "-" with a session
     std::vector<std::string> outputs;
-    std::string format;       ///< of the outputs; empty: by extension
-    std::uint32_t order = 1;  ///< of the outputs' elements
+    std::string format;                      ///< of the outputs; empty: by extension
+    std::uint32_t order = 1;                 ///< of the outputs' elements
+    std::optional<EncodingChoice> encoding;  ///< of .vsplit outputs; empty: as IN, or exact
     bool json = false;
     bool no_progress = false;
     unsigned threads = 0;  ///< 0: all cores

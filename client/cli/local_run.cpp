@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "cli/file_hash.h"
 #include "vsplit/base/execution_context.h"
 #include "vsplit/io/read_mesh.h"
 #include "vsplit/mesh/inspect.h"
@@ -88,7 +89,13 @@ Expected<Outcome> run_method(const Arguments& a, const std::vector<Output>& outp
     result->unit = source->unit;
     v1::Representation made = wire::describe("", "", source->mesh.face_count(), *result, extent_of(result->mrr));
     TriangleMesh mesh = mesh_at(result->mrr, result->mrr.level_for(result->faces));
-    return Outcome{std::move(made), std::move(mesh), std::move(result->mrr), std::move(source->mesh)};
+    StoredMrr stored{std::move(result->mrr), 0, ""};
+    if (wants_representation(outputs)) {
+        const Expected<SourceHash> hash = hash_of_file(a.input);
+        if (!hash) return hash.error();
+        stored.source = *hash;
+    }
+    return Outcome{std::move(made), std::move(mesh), std::move(stored), std::move(source->mesh)};
 }
 
 Expected<Outcome> run_improve(const Arguments& a, const std::vector<Output>& outputs, ProgressBar& progress,
@@ -189,7 +196,7 @@ Expected<Outcome> load_representation(const std::string& path, std::optional<std
     representation.set_unit(wire::to_proto(*agreed));
     TriangleMesh mesh = mesh_at(stored->mrr, stored->mrr.level_for(faces.value_or(stored->faces)));
     wire::describe_resolution(mesh, representation);
-    return Outcome{std::move(representation), std::move(mesh), std::move(stored->mrr)};
+    return Outcome{std::move(representation), std::move(mesh), *std::move(stored)};
 }
 
 Expected<Outcome> run_locally(const Arguments& a, const std::vector<Output>& outputs, ProgressBar& progress,

@@ -6,7 +6,7 @@
 #include "cli/comparison.h"
 #include "vsplit/mesh/length_unit.h"
 #include "vsplit/mesh/triangle_mesh.h"
-#include "vsplit/mrr/multires_mesh.h"
+#include "vsplit/mrr/mrr_file.h"
 #include "vsplit/v1/meshing.pb.h"
 
 namespace vsplit::cli {
@@ -22,7 +22,7 @@ using Document =
 struct Outcome {
     Document document;
     std::optional<TriangleMesh> mesh;       ///< what mesh files are written from; empty where they were downloaded as files
-    std::optional<MultiresMesh> mrr;        ///< what a .vsplit file is written from
+    std::optional<StoredMrr> stored;        ///< what a .vsplit file is written from; what the document tells is added
     std::optional<TriangleMesh> surface{};  ///< what was worked on, where it is there: mid-side nodes are put on it
 };
 

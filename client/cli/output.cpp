@@ -45,8 +45,9 @@ Expected<Output> plan_output(const std::string& path, const std::string& format_
 Expected<MidsideNodes> nodes_of(const Outcome& outcome) {
     const ExecutionContext context;
     if (outcome.surface) return midside_nodes(*outcome.mesh, *outcome.surface, context);
-    if (!outcome.mrr) return midside_nodes(*outcome.mesh, *outcome.mesh, context);
-    const TriangleMesh finest = mesh_at(*outcome.mrr, outcome.mrr->level_for(outcome.mrr->faces_max()));
+    if (!outcome.stored) return midside_nodes(*outcome.mesh, *outcome.mesh, context);
+    const MultiresMesh& mrr = outcome.stored->mrr;
+    const TriangleMesh finest = mesh_at(mrr, mrr.level_for(mrr.faces_max()));
     return midside_nodes(*outcome.mesh, finest, context);
 }
 
@@ -66,11 +67,21 @@ Status write_mesh_output(const Outcome& outcome, const Output& output, const Arg
     return write_second_order_file(mesh, *nodes, *output.format, output.path);
 }
 
-Status write_representation(const Outcome& outcome, const std::string& path) {
+/// What was measured of the resolution that is described, where the file does not say it yet.
+void note_deviation(const v1::Representation& description, StoredMrr& stored) {
+    if (!description.quality().has_deviation_max()) return;
+    const auto level = static_cast<std::uint32_t>(stored.mrr.level_for(description.faces()));
+    const auto at = std::lower_bound(stored.deviations.begin(), stored.deviations.end(), level,
+                                     [](const LevelDeviation& known, std::uint32_t sought) { return known.level < sought; });
+    if (at != stored.deviations.end() && at->level == level) return;
+    stored.deviations.insert(at, {level, description.quality().deviation_max()});
+}
+
+Status write_representation(const Outcome& outcome, const Output& output, const Arguments& arguments) {
     const auto* made = std::get_if<v1::Representation>(&outcome.document);
-    if (made == nullptr || !outcome.mrr) {
+    if (made == nullptr || !outcome.stored) {
         return Error{Cause::kInvalidOption,
-                     "'" + path +
+                     "'" + output.path +
                          "' would hold a representation, and there is only a mesh; accepted are .stl, "
                          ".obj, .ply, .off, .msh, .inp, .bdf, .vtk, .vtu and .3mf, or `improve` or `control` the mesh first",
                      "output"};
@@ -79,7 +90,15 @@ Status write_representation(const Outcome& outcome, const std::string& path) {
     v1::Representation description = *made;
     description.clear_id();
     description.clear_elapsed();
-    return save_mrr({*outcome.mrr, description.faces(), wire::to_json(description)}, path);
+    StoredMrr stored = *outcome.stored;
+    stored.faces = description.faces();
+    stored.description = wire::to_json(description);
+    stored.unit = unit_of(outcome.document);
+    note_deviation(description, stored);
+    if (!arguments.encoding) return save_mrr(stored, output.path);
+    const Expected<StoredMrr> encoded = in_encoding(std::move(stored), *arguments.encoding);
+    if (!encoded) return encoded.error();
+    return save_mrr(*encoded, output.path);
 }
 
 }  // namespace
@@ -94,6 +113,10 @@ Expected<std::vector<Output>> plan_outputs(const Arguments& arguments) {
             return write_second_order({}, {}, *output->format).error();
         }
         outputs.push_back(*std::move(output));
+    }
+    if (arguments.encoding && !wants_representation(outputs)) {
+        return Error{Cause::kInvalidOption, "--encoding is that of .vsplit files, and none is written; accepted with -o x.vsplit",
+                     "encoding"};
     }
     return outputs;
 }
@@ -114,7 +137,7 @@ Status write_outputs(const Outcome& outcome, const std::vector<Output>& outputs,
     for (const Output& output : outputs) {
         if (output.format && !outcome.mesh) continue;  // the server sent the file
         Status written =
-            output.format ? write_mesh_output(outcome, output, arguments) : write_representation(outcome, output.path);
+            output.format ? write_mesh_output(outcome, output, arguments) : write_representation(outcome, output, arguments);
         if (!written) return written;
     }
     return Done{};

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/file_hash.h"
 #include "cli/local_run.h"
 #include "cli/remote_session.h"
 #include "cli/server_access.h"
@@ -143,15 +144,26 @@ private:
                              " faces and describes one of " + std::to_string(made->faces()),
                          ""};
         }
-        std::optional<MultiresMesh> whole;
-        if (arguments_.order == 2) {
-            // The surface that mid-side nodes are put on is with the server.
-            if (Status downloaded = download(made->id(), made->faces()); !downloaded) return downloaded.error();
-            if (wants_representation(outputs_)) whole = receiver_.held();
-            return Outcome{*std::move(made), {}, std::move(whole)};
+        std::optional<StoredMrr> whole;
+        if (wants_representation(outputs_)) {
+            Expected<StoredMrr> stored = stored_whole();
+            if (!stored) return stored.error();
+            whole = *std::move(stored);
         }
-        if (wants_representation(outputs_)) whole = receiver_.held();
-        return Outcome{*std::move(made), receiver_.mesh(), std::move(whole)};
+        if (arguments_.order != 2) return Outcome{*std::move(made), receiver_.mesh(), std::move(whole)};
+        // The surface that mid-side nodes are put on is with the server.
+        if (Status downloaded = download(made->id(), made->faces()); !downloaded) return downloaded.error();
+        return Outcome{*std::move(made), {}, std::move(whole)};
+    }
+
+    /// All that has come; which file it was made from is known where this command has sent it.
+    Expected<StoredMrr> stored_whole() {
+        StoredMrr stored{receiver_.held(), 0, ""};
+        if (!arguments_.session.empty()) return stored;
+        const Expected<SourceHash> hash = hash_of_file(arguments_.input);
+        if (!hash) return hash.error();
+        stored.source = *hash;
+        return stored;
     }
 
     Expected<v1::Quality> quality() {

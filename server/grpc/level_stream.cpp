@@ -17,7 +17,7 @@ LevelParts::LevelParts(service::MeshingService& service, service::ResolutionPlan
     if (!plan_.with_base) return;
     region_parts_ = wire::region_parts(plan_.levels->mrr());
     const bool plain = choice_.encoding == RecordEncoding::kFloat64;
-    if (plain) base_parts_ = wire::base_mesh_parts(plan_.levels->mrr().base);
+    if (plain) base_parts_ = wire::base_mesh_parts(plain_base());
 }
 
 Expected<LevelParts::Step> LevelParts::next(v1::ProgressiveEvent& event) {
@@ -46,9 +46,9 @@ Expected<LevelParts::Step> LevelParts::next(v1::ProgressiveEvent& event) {
     return Step::kMessage;
 }
 
-void LevelParts::send(const RecordBlock& block, v1::ProgressiveEvent& event) {
-    *event.mutable_record_block() = wire::to_proto(block);
+void LevelParts::send(RecordBlock block, v1::ProgressiveEvent& event) {
     record_ += block.count;
+    *event.mutable_record_block() = wire::to_proto(std::move(block));
 }
 
 Status LevelParts::take_made() {
@@ -94,7 +94,8 @@ bool LevelParts::next_regions(v1::ProgressiveEvent& event) {
 bool LevelParts::next_plain(v1::ProgressiveEvent& event) {
     const MultiresMesh& mrr = plan_.levels->mrr();
     if (base_part_ < base_parts_) {
-        *event.mutable_base_mesh() = wire::base_mesh_part(mrr.base, base_part_++, mrr.ghosts);
+        *event.mutable_base_mesh() = wire::base_mesh_part(plain_base(), base_part_++, mrr.ghosts);
+        if (plan_.keyframe) event.mutable_base_mesh()->set_first_record(static_cast<std::uint32_t>(plan_.first_record));
         return true;
     }
     if (next_regions(event)) return true;
@@ -102,7 +103,11 @@ bool LevelParts::next_plain(v1::ProgressiveEvent& event) {
     // No record of any encoding takes less than a byte of its block.
     const std::size_t most = std::min(kMaxBlockBytes, plan_.last_record - record_);
     const std::size_t count = records_that_fit(mrr.records.slice(record_, most), choice_.encoding);
-    send(encode_block(mrr.records.slice(record_, count), static_cast<std::uint32_t>(record_), choice_.encoding), event);
+    std::string memory;  // that of the block before, which is on its way
+    if (event.has_record_block()) memory = std::move(*event.mutable_record_block()->mutable_payload());
+    send(
+        encode_block(mrr.records.slice(record_, count), static_cast<std::uint32_t>(record_), choice_.encoding, std::move(memory)),
+        event);
     return true;
 }
 
@@ -115,7 +120,8 @@ Expected<std::unique_ptr<MessageSource<v1::ProgressiveEvent>>> LevelSource::make
     const Expected<service::SessionSnapshot> session = service.snapshot(request.session(), caller);
     if (!session) return session.error();
     const service::ResolutionRequest wanted{request.representation(), request.faces_held(), request.faces(),
-                                            request.resume_from()};
+                                            request.resume_from(),
+                                            request.keyframe() && choice->encoding == RecordEncoding::kFloat64};
     const auto representation = service::find_requested(*session, wanted);
     if (!representation) return representation.error();
     auto news = std::make_shared<News>();

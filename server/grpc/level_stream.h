@@ -37,9 +37,11 @@ private:
 
     [[nodiscard]] bool next_regions(v1::ProgressiveEvent& event);
     [[nodiscard]] bool next_plain(v1::ProgressiveEvent& event);
+    /// What the stream begins with: the coarsest mesh or a keyframe.
+    [[nodiscard]] const TriangleMesh& plain_base() const { return plan_.keyframe ? *plan_.keyframe : plan_.levels->mrr().base; }
     [[nodiscard]] Status take_made();
     [[nodiscard]] Status begin_errand();
-    void send(const RecordBlock& block, v1::ProgressiveEvent& event);
+    void send(RecordBlock block, v1::ProgressiveEvent& event);
 
     service::MeshingService* service_;
     service::ResolutionPlan plan_;

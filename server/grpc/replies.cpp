@@ -51,7 +51,9 @@ v1::Representation to_proto(const service::Representation& representation) {
 v1::Representation to_proto(const service::Representation& representation, const service::Levels& levels, std::size_t level) {
     v1::Representation proto = to_proto(representation);
     const std::uint32_t made_for = representation.figures().faces;
-    if (levels.mrr().faces_at(level) != made_for) wire::describe_resolution(*levels.mesh(level), proto);
+    if (levels.mrr().faces_at(level) == made_for) return proto;
+    wire::describe_quality(*levels.quality(level), proto);
+    if (proto.has_control_options()) wire::describe_bounds(*levels.mesh(level), proto);
     return proto;
 }
 

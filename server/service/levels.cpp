@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kCachedMeshes = 2;
 constexpr std::size_t kKeptEncodings = 2;
+constexpr std::size_t kKeptQualities = 64;  // some hundred bytes each
 
 /// The value of `key` in `cache`, from `make()` when it is not there; it stays there if memory has room for the `bytes(value)`.
 template <class Value, class Make, class Bytes>
@@ -29,11 +30,16 @@ std::shared_ptr<const Value> cached(LruCache<Paid<Value>>& cache, std::size_t ke
 }  // namespace
 
 Levels::Levels(MultiresMesh mrr, MemoryBudget& budget)
-    : mrr_(std::move(mrr)), budget_(budget), meshes_(kCachedMeshes), encoded_(kKeptEncodings) {}
+    : mrr_(std::move(mrr)), budget_(budget), meshes_(kCachedMeshes), qualities_(kKeptQualities), encoded_(kKeptEncodings) {}
 
 std::shared_ptr<const TriangleMesh> Levels::mesh(std::size_t level) const {
     return cached(
         meshes_, level, budget_, [&] { return mesh_at(mrr_, level); }, [](const TriangleMesh& mesh) { return memory_of(mesh); });
+}
+
+std::shared_ptr<const Quality> Levels::quality(std::size_t level) const {
+    if (std::shared_ptr<const Quality> kept = qualities_.find(level)) return kept;
+    return qualities_.insert(level, std::make_shared<const Quality>(measure_quality(*mesh(level))));
 }
 
 std::shared_ptr<EncodedRecords> Levels::encoded(const EncodingChoice& choice) const {

@@ -4,6 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "vsplit/mrr/progressive_mesh.h"
+#include "vsplit/mrr/record_block.h"
+
 namespace vsplit::service {
 namespace {
 
@@ -24,6 +27,34 @@ Status check_resume(const MultiresMesh& mrr, std::uint32_t resume_from) {
                  "resume_from is " + std::to_string(resume_from) + "; this representation has " +
                      std::to_string(mrr.records.size()) + " records, so at most that is accepted",
                  "resume_from"};
+}
+
+/// Bytes of a mesh as it is sent in the encoding kFloat64, its regions included.
+std::size_t mesh_bytes(const MultiresMesh& mrr, std::size_t vertices, std::size_t faces) {
+    return vertices * sizeof(Vec3) + faces * sizeof(Triangle) + mrr.regions.size() * sizeof(std::uint32_t);
+}
+
+std::size_t bytes_between(const ResolutionPlan& plan) {
+    const MultiresMesh& mrr = plan.levels->mrr();
+    const RecordSpan records = mrr.records.slice(plan.first_record, plan.last_record - plan.first_record);
+    return (plan.with_base ? mesh_bytes(mrr, mrr.base.positions.size(), mrr.base.faces.size()) : 0) +
+           records.splits.size() * record_bytes(RecordKind::kSplit) + records.flips.size() * record_bytes(RecordKind::kFlip) +
+           records.moves.size() * record_bytes(RecordKind::kMove);
+}
+
+/// Where the mesh at the plan's end is less to send than the way to it, that is sent.
+Status take_keyframe(ResolutionPlan& plan) {
+    const MultiresMesh& mrr = plan.levels->mrr();
+    if (plan.last_record == plan.first_record ||
+        mesh_bytes(mrr, mrr.base.positions.size() + plan.level, mrr.base.faces.size() + 2 * plan.level) >= bytes_between(plan))
+        return Done{};
+    Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(mrr.base, mrr.ghosts);
+    if (!mesh) return mesh.error();
+    if (Status refined = mesh->refine(mrr.records.slice(0, plan.last_record)); !refined) return refined;
+    plan.keyframe = std::make_shared<const TriangleMesh>(mesh->mesh());
+    plan.with_base = true;
+    plan.first_record = plan.last_record;
+    return Done{};
 }
 
 }  // namespace
@@ -49,6 +80,8 @@ Expected<ResolutionPlan> plan_resolution(SessionSnapshot::RepresentationPointer 
     plan.with_base = request.faces_held == 0 && request.resume_from == 0;
     plan.first_record = std::max<std::size_t>(plan.first_record, request.resume_from);
     plan.last_record = std::max(plan.first_record, plan.last_record);
+    if (!request.keyframe) return plan;
+    if (Status taken = take_keyframe(plan); !taken) return taken.error();
     return plan;
 }
 

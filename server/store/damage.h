@@ -11,11 +11,12 @@ namespace vsplit::store {
 inline constexpr const char* kIndexName = "sessions.db";
 inline constexpr const char* kBlobsName = "blobs";
 
-/// Whether the files of the index stay in their place.
-enum class Original { kStays, kGoes };
+/// What becomes of the files of the index: they are written to again, replaced by others, or gone from their place.
+enum class Original { kIsUsed, kIsReplaced, kGoes };
 
-/// Keeps the index of a data directory as it is, and its blobs, in a new `directory`/damaged-N. Blobs stay in their place too:
-/// they are linked, which takes no disk. Returns where. \return what `disk_error` returns; then nothing has left its place for
+/// Keeps the index of a data directory as it is, and its blobs, in a new `directory`/damaged-N, or in the last one where these
+/// very files are there already. Blobs stay in their place too: they are linked, which takes no disk, and so is an index that is
+/// replaced. Returns where. \return what `disk_error` returns; then nothing has left its place for
 /// good.
 [[nodiscard]] Expected<std::filesystem::path> keep_damaged(const std::filesystem::path& directory, Original original);
 

@@ -15,6 +15,7 @@
 #include "store/damage.h"
 #include "store/disk_reserve.h"
 #include "store/file_blob_store.h"
+#include "store/new_index.h"
 #include "store/salvage.h"
 #include "store/sqlite_session_index.h"
 #include "store/stored_sessions.h"
@@ -82,39 +83,38 @@ std::string read_file(const fs::path& file) {
 
 /// SQLite deletes the log of a database that is not there, and reads another one up to what is damaged, both in silence. What it
 /// would lose is kept and told first.
-Status look_over(const fs::path& directory, bool writable, const Report& report) {
+/// \return whether what is read of the log goes on being used.
+Expected<bool> look_over(const fs::path& directory, bool writable, const Report& report) {
     const fs::path index = directory / kIndexName;
-    if (size_of(log_of(index)) == 0) return Done{};
+    if (size_of(log_of(index)) == 0) return false;
     const bool lost = size_of(index) == 0;
     const std::string log = lost ? "" : read_file(log_of(index));
     const std::uint64_t passed_over = transactions_lost(std::as_bytes(std::span(log)));
-    if (!lost && passed_over == 0) return Done{};
+    if (!lost && passed_over == 0) return false;
     const std::string what = lost ? "the data directory's index is missing or empty, and its log is not"
                                   : "the log of the data directory's index is damaged; what at least " +
                                         std::to_string(passed_over) + " changes behind the damage did is lost";
     if (!writable) {
         report(what);
-        return Done{};
+        return false;
     }
-    const Expected<fs::path> kept = keep_damaged(directory, lost ? Original::kGoes : Original::kStays);
+    const Expected<fs::path> kept = keep_damaged(directory, lost ? Original::kGoes : Original::kIsUsed);
     if (!kept) return kept.error();
     report(what + "; " + (lost ? "put aside untouched in " : "kept as it was in ") + kept->string() +
            (lost ? ", and begun anew without its sessions" : ""));
-    return Done{};
+    return !lost;
 }
 
 /// In the place of an index that is damaged, with what is sound of it.
 Expected<std::unique_ptr<SqliteSessionIndex>> begin_anew(const fs::path& directory, const Error& damage, const Report& report) {
-    const Expected<fs::path> aside = keep_damaged(directory, Original::kGoes);
+    const Expected<fs::path> aside = keep_damaged(directory, Original::kIsReplaced);
     if (!aside) return aside.error();
     const IndexContents sound = salvage(*aside / kIndexName);
-    Expected<std::unique_ptr<SqliteSessionIndex>> index = SqliteSessionIndex::open(directory / kIndexName);
-    if (!index) return index;
-    if (Status taken = (*index)->take_over(sound); !taken) return taken.error();
+    if (Status replaced = replace_index(directory, sound); !replaced) return replaced.error();
     report(damage.message + "; put aside untouched in " + aside->string() +
            ", and begun anew with what is sound of it: " + std::to_string(sound.sessions.size()) + " sessions with " +
            std::to_string(sound.representations.size()) + " representations");
-    return index;
+    return SqliteSessionIndex::open(directory / kIndexName);
 }
 
 }  // namespace
@@ -142,10 +142,15 @@ Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, 
 }
 
 Expected<std::unique_ptr<SessionIndex>> DataDir::open_index(const Report& report) const {
-    if (Status looked = look_over(directory_, writable_, report); !looked) return looked.error();
+    if (Status finished = writable_ ? finish_replacement(directory_) : Status(Done{}); !finished) return finished.error();
+    const Expected<bool> damaged_log = look_over(directory_, writable_, report);
+    if (!damaged_log) return damaged_log.error();
     Expected<std::unique_ptr<SqliteSessionIndex>> index = SqliteSessionIndex::open(directory_ / kIndexName, writable_);
     if (!index && writable_ && index.error().cause == Cause::kCorrupt) index = begin_anew(directory_, index.error(), report);
     if (!index) return index.error();
+    if (*damaged_log) {  // or it would be found again after the next crash
+        if (Status emptied = (*index)->empty_log(); !emptied) return emptied.error();
+    }
     return std::unique_ptr<SessionIndex>(*std::move(index));
 }
 

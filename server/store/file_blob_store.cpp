@@ -11,6 +11,7 @@
 #include "guard/digest.h"
 #include "service/disk_error.h"
 #include "service/limits.h"
+#include "store/sync_directory.h"
 
 namespace vsplit::store {
 namespace {
@@ -58,12 +59,6 @@ bool write_all(int descriptor, Bytes bytes) {
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
     return true;
-}
-
-// A name is for good when its directory has been synchronised.
-bool sync_directory(const fs::path& directory) {
-    const Descriptor opened(directory, O_RDONLY | O_DIRECTORY);
-    return opened.open() && fsync(opened.number()) == 0;
 }
 
 // What was being written when a server ended: its names are numbers.
@@ -155,18 +150,20 @@ Expected<BlobEntry> FileBlobStore::put(std::span<const Bytes> parts) {
     const bool there = fs::exists(place_of(blob.key), failed);
     if (failed) return service::disk_error("cannot keep a mesh in the data directory", failed.value());
     if (there) {
-        if (get(blob.key)) return blob;
-        if (Status aside = put_aside(blob.key); !aside) return aside.error();  // a damaged one
+        const Expected<std::shared_ptr<const Blob>> kept = get(blob.key);
+        if (kept) return blob;
+        if (kept.error().cause != Cause::kCorrupt) return kept.error();
     }
     if (Status room = take_room(blob.bytes); !room) return room.error();
-    const Expected<bool> written = write(place_of(blob.key), parts);
+    const Expected<bool> written = write(blob.key, parts, there ? InPlace::kDamaged : InPlace::kNothing);
     if (!written || !*written) give_back(blob.bytes);
     if (!written) return written.error();
     return blob;
 }
 
-/// False where another caller was quicker with the same bytes.
-Expected<bool> FileBlobStore::write(const fs::path& place, std::span<const Bytes> parts) {
+/// A damaged blob in its place is put aside when the new one is on disk. False where another caller was quicker with the same bytes.
+Expected<bool> FileBlobStore::write(const std::string& key, std::span<const Bytes> parts, InPlace found) {
+    const fs::path place = place_of(key);
     const fs::path incoming = incoming_ / std::to_string(++written_);
     const auto fail = [&incoming] {
         const int number = errno;
@@ -186,6 +183,12 @@ Expected<bool> FileBlobStore::write(const fs::path& place, std::span<const Bytes
         if (!sync_directory(directory_)) return fail();
     } else if (errno != EEXIST) {
         return fail();
+    }
+    if (found == InPlace::kDamaged) {
+        if (Status aside = put_aside(key); !aside) {
+            unlink(incoming.c_str());
+            return aside.error();
+        }
     }
     const bool first = link(incoming.c_str(), place.c_str()) == 0;
     if (!first && errno != EEXIST) return fail();

@@ -34,7 +34,8 @@ private:
     [[nodiscard]] std::filesystem::path place_of(const std::string& key) const;
     [[nodiscard]] Status take_room(std::uint64_t bytes);
     void give_back(std::uint64_t bytes);
-    [[nodiscard]] Expected<bool> write(const std::filesystem::path& place, std::span<const Bytes> parts);
+    enum class InPlace { kNothing, kDamaged };
+    [[nodiscard]] Expected<bool> write(const std::string& key, std::span<const Bytes> parts, InPlace found);
 
     const std::filesystem::path directory_;
     const std::filesystem::path incoming_;

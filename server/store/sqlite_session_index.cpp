@@ -121,6 +121,14 @@ Expected<std::unique_ptr<SqliteSessionIndex>> SqliteSessionIndex::open(const std
     return index;
 }
 
+Status SqliteSessionIndex::empty_log() {
+    const std::lock_guard lock(mutex_);
+    const Expected<std::int64_t> busy = one_number(database_, "PRAGMA wal_checkpoint(TRUNCATE)");
+    if (!busy) return busy.error();
+    if (*busy == 0) return Done{};
+    return Error{Cause::kUnavailable, "the data directory's index is in use by another program", "data_dir"};
+}
+
 Status SqliteSessionIndex::prepare_schema(bool writable) {
     for (const char* setting : {"PRAGMA synchronous = FULL", "PRAGMA journal_mode = WAL", "PRAGMA wal_autocheckpoint = 100",
                                 "PRAGMA journal_size_limit = 1000000"}) {

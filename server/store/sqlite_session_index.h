@@ -21,6 +21,9 @@ public:
     /// All of another index into this one, which is empty; without a clock where there is none. \return as SessionIndex says.
     [[nodiscard]] Status take_over(const IndexContents& contents);
 
+    /// Whatever is in the log goes into the database, and the log is empty. \return as SessionIndex says.
+    [[nodiscard]] Status empty_log();
+
     [[nodiscard]] Expected<IndexContents> load() override;
     [[nodiscard]] Status add_session(const SessionRow& session) override;
     [[nodiscard]] Status set_source(std::uint64_t session, const StoredItem& source) override;

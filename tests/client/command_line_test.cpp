@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "cli/file_hash.h"
 #include "tests/client/command.h"
 #include "tests/core/meshes.h"
 #include "vsplit/io/read_mesh.h"
@@ -208,6 +209,79 @@ TEST_F(CommandLineTest, ResolutionStoresTheRepresentationAtAnother) {
     EXPECT_EQ(before->mrr, after->mrr);
     EXPECT_EQ(json_of<v1::Representation>(run({"info", file("at500.vsplit"), "--json"})).faces(), after->faces);
     EXPECT_NE(before->faces, after->faces);
+}
+
+TEST_F(CommandLineTest, AFileSaysUnitSourceAndDeviation) {
+    const std::string input = mesh_file("frame.off", test::cube_frame());
+    const CommandResult made = run({"improve", input, "--unit", "cm", "--subdivide", "0.3", "--json", "-o", file("a.vsplit")});
+    ASSERT_EQ(made.exit_status, 0) << made.err;
+    const Expected<StoredMrr> stored = load_mrr(file("a.vsplit"));
+    ASSERT_TRUE(stored) << stored.error().message;
+    EXPECT_EQ(stored->unit, LengthUnit::kCentimetre);
+    ASSERT_TRUE(stored->source);
+    const Expected<SourceHash> hash = hash_of_file(input);
+    ASSERT_TRUE(hash);
+    EXPECT_EQ(*stored->source, *hash);
+    ASSERT_EQ(stored->deviations.size(), 1U);
+    EXPECT_EQ(stored->deviations[0].level, stored->mrr.level_for(stored->faces));
+    EXPECT_EQ(stored->deviations[0].most, json_of<v1::Representation>(made).quality().deviation_max());
+    // What is known stays known at another resolution and in another encoding.
+    ASSERT_EQ(
+        run({"resolution", file("a.vsplit"), "--faces", "500", "--encoding", "quantised:16", "-o", file("b.vsplit")}).exit_status,
+        0);
+    const Expected<StoredMrr> other = load_mrr(file("b.vsplit"));
+    ASSERT_TRUE(other) << other.error().message;
+    EXPECT_EQ(other->source, stored->source);
+    EXPECT_EQ(other->unit, stored->unit);
+    ASSERT_EQ(other->deviations.size(), 1U);
+    EXPECT_EQ(other->deviations[0].level, stored->deviations[0].level);
+    EXPECT_GT(other->deviations[0].most, stored->deviations[0].most);
+}
+
+TEST_F(CommandLineTest, TheHashIsThatOfSha256sum) {
+    std::ofstream(file("abc"), std::ios::binary) << "abc";
+    const Expected<SourceHash> hash = hash_of_file(file("abc"));
+    ASSERT_TRUE(hash);
+    const SourceHash expected{0xba, 0x78, 0x16, 0xbf, 0x8f, 0x01, 0xcf, 0xea, 0x41, 0x41, 0x40, 0xde, 0x5d, 0xae, 0x22, 0x23,
+                              0xb0, 0x03, 0x61, 0xa3, 0x96, 0x17, 0x7a, 0x9c, 0xb4, 0x10, 0xff, 0x61, 0xf2, 0x00, 0x15, 0xad};
+    EXPECT_EQ(*hash, expected);
+    EXPECT_FALSE(hash_of_file(file("nothing")));
+}
+
+TEST_F(CommandLineTest, FilesAreWrittenInTheEncodingAskedFor) {
+    const std::string improved = improved_file();
+    const Expected<StoredMrr> exact = load_mrr(improved);
+    ASSERT_TRUE(exact);
+    EXPECT_EQ(exact->grid.encoding(), RecordEncoding::kFloat64);
+    std::uintmax_t larger = std::filesystem::file_size(improved);
+    for (const auto& [name, encoding, bits] :
+         {std::tuple("float32", RecordEncoding::kFloat32, 0U), std::tuple("quantised:18", RecordEncoding::kQuantised, 18U),
+          std::tuple("quantised", RecordEncoding::kQuantised, 14U)}) {
+        const CommandResult result = run({"resolution", improved, "--encoding", name, "-o", file("e.vsplit")});
+        ASSERT_EQ(result.exit_status, 0) << result.err;
+        const Expected<StoredMrr> stored = load_mrr(file("e.vsplit"));
+        ASSERT_TRUE(stored) << stored.error().message;
+        EXPECT_EQ(stored->grid.encoding(), encoding);
+        EXPECT_EQ(stored->grid.bits(), bits);
+        EXPECT_EQ(stored->mrr, on_grid(exact->mrr, stored->grid));
+        EXPECT_LT(std::filesystem::file_size(file("e.vsplit")), larger) << name;
+        larger = std::filesystem::file_size(file("e.vsplit"));
+    }
+    // Where nothing is asked a file stays in its encoding, bit for bit.
+    ASSERT_EQ(run({"resolution", file("e.vsplit"), "-o", file("f.vsplit")}).exit_status, 0);
+    EXPECT_EQ(load_mrr(file("f.vsplit"))->grid, load_mrr(file("e.vsplit"))->grid);
+}
+
+TEST_F(CommandLineTest, EncodingsThatThereAreNoneOfAreRefused) {
+    const std::string improved = improved_file();
+    for (const char* name : {"float16", "quantised:9", "quantised:25", "quantised:", "float32:8", "quantised:14x"}) {
+        const CommandResult result = run({"resolution", improved, "--encoding", name, "-o", file("x.vsplit")});
+        EXPECT_EQ(result.exit_status, 1) << name;
+        EXPECT_NE(result.err.find("quantised:10 to quantised:24"), std::string::npos) << result.err;
+    }
+    const CommandResult mesh = run({"resolution", improved, "--encoding", "float32", "-o", file("x.stl")});
+    EXPECT_EQ(mesh.exit_status, 1);
+    EXPECT_NE(mesh.err.find("--encoding"), std::string::npos) << mesh.err;
 }
 
 TEST_F(CommandLineTest, InfoAndQualityDescribeAStoredRepresentation) {

@@ -63,6 +63,73 @@ TEST(ConnectTest, ObeysAStopThatWasRequested) {
     EXPECT_EQ(client.error().cause, Cause::kCancelled);
 }
 
+TEST_F(MeshingClientTest, WhatIsSafeToAskAgainIsAskedAgainWhileTheServerIsAway) {
+    int calls = 0;
+    server_.on_get = [&calls](const std::string& id, v1::Session& session) {
+        session.set_id(id);
+        return ++calls < 3 ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "restarting") : grpc::Status::OK;
+    };
+    MeshingClient client = connected();
+    const auto session = client.get_session("s");
+    ASSERT_TRUE(session) << session.error().message;
+    EXPECT_EQ(session->id(), "s");
+    EXPECT_EQ(calls, 3);
+}
+
+TEST_F(MeshingClientTest, RetriesEnd) {
+    int calls = 0;
+    server_.on_get = [&calls](const std::string&, v1::Session&) {
+        ++calls;
+        return grpc::Status(grpc::StatusCode::UNAVAILABLE, "away");
+    };
+    MeshingClient client = connected();
+    CallOptions options;
+    options.retry = {4, milliseconds(1), milliseconds(2)};
+    const auto failed = client.get_session("s", options);
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().cause, Cause::kUnavailable);
+    EXPECT_EQ(calls, 4);
+    // At the deadline, which is that of all tries together.
+    options.retry = {1000, milliseconds(20), milliseconds(20)};
+    options.deadline = milliseconds(200);
+    const Clock::time_point begin = Clock::now();
+    EXPECT_FALSE(client.get_session("s", options));
+    EXPECT_LT(Clock::now() - begin, std::chrono::seconds(5));
+    // And where a stop is requested.
+    std::stop_source stop;
+    const std::jthread stopper([&stop] {
+        std::this_thread::sleep_for(milliseconds(50));
+        stop.request_stop();
+    });
+    CallOptions patient;
+    patient.stop = stop.get_token();
+    patient.retry = {1000, milliseconds(10'000), milliseconds(10'000)};
+    EXPECT_FALSE(client.get_session("s", patient));
+    EXPECT_LT(Clock::now() - begin, std::chrono::seconds(8));
+}
+
+TEST_F(MeshingClientTest, WhatChangesSomethingIsAskedOnce) {
+    int calls = 0;
+    server_.on_create = [&calls](v1::Session&) {
+        ++calls;
+        return grpc::Status(grpc::StatusCode::UNAVAILABLE, "away");
+    };
+    MeshingClient client = connected();
+    EXPECT_FALSE(client.create_session());
+    EXPECT_EQ(calls, 1);
+}
+
+TEST_F(MeshingClientTest, OtherErrorsAreNoReasonToAskAgain) {
+    int calls = 0;
+    server_.on_get = [&calls](const std::string&, v1::Session&) {
+        ++calls;
+        return wire::to_status({Cause::kNotFound, "none", "session"});
+    };
+    MeshingClient client = connected();
+    EXPECT_FALSE(client.get_session("s"));
+    EXPECT_EQ(calls, 1);
+}
+
 TEST_F(MeshingClientTest, RestoresErrorsOfTheServer) {
     server_.on_get = [](const std::string& id, v1::Session&) {
         return wire::to_status({Cause::kNotFound, "no session '" + id + "'", "session"});

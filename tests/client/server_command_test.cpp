@@ -98,6 +98,9 @@ TEST_F(ServerCommandTest, ImproveIsWhatItIsLocally) {
     ASSERT_TRUE(stored_here && stored_there);
     EXPECT_EQ(stored_here->mrr, stored_there->mrr);
     EXPECT_EQ(stored_here->faces, stored_there->faces);
+    EXPECT_EQ(stored_here->source, stored_there->source);
+    EXPECT_TRUE(stored_there->source);
+    EXPECT_EQ(stored_here->deviations, stored_there->deviations);
     EXPECT_EQ(sessions(), 0);
 }
 

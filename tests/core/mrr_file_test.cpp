@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 
+#include "mrr/mrr_layout.h"
 #include "tests/core/edited_mrr.h"
 #include "tests/core/meshes.h"
 #include "tests/core/random.h"
@@ -42,11 +44,14 @@ RecordList documented_records() {
             VertexSplit{0, 1, {0, 0, 1}, {0, 0.5, 0.5}}};
 }
 
+/// Where things stand in a file of version 2 (docs/format.md).
+constexpr std::size_t kHeaderCrcAt = 204, kHeaderBytes = 208, kIndexBytes = 40;
+
 /// Three splits, a flip and a move.
 StoredMrr example() {
     MultiresMesh mrr{documented_base(), documented_records()};
     mrr.records.push_back(VertexSplit{5, 1, {0, 0, 0}, {1, 1, 1}});
-    return {mrr, 8, R"({"method":"IMPROVE"})"};
+    return {mrr, 10, R"({"method":"IMPROVE"})"};
 }
 
 Expected<StoredMrr> decode(const std::string& bytes) { return decode_mrr(std::as_bytes(std::span(bytes))); }
@@ -69,13 +74,34 @@ std::uint32_t crc_of(const std::string& bytes, std::size_t at, std::size_t count
 /// The header's checksum fits again: a file that lies, not one that was damaged.
 std::string with_field(std::string bytes, std::size_t at, std::uint32_t value) {
     put(bytes, at, value);
+    put(bytes, kHeaderCrcAt, crc_of(bytes, 0, kHeaderCrcAt));
+    return bytes;
+}
+
+/// The same of version 1.
+std::string with_field_1(std::string bytes, std::size_t at, std::uint32_t value) {
+    put(bytes, at, value);
     put(bytes, 44, crc_of(bytes, 0, 44));
     return bytes;
 }
 
-bool operator==(const StoredMrr& left, const StoredMrr& right) {
-    return left.mrr == right.mrr && left.faces == right.faces && left.description == right.description;
+/// Base mesh, description and index of example() end here.
+std::size_t blocks_of_example_at() { return kHeaderBytes + 4 * 24 + 4 * 12 + example().description.size() + kIndexBytes; }
+
+/// A field of the index of example(), whose checksum fits again.
+std::string with_index(std::string bytes, std::size_t at, std::uint32_t value) {
+    const std::size_t end = blocks_of_example_at();
+    put(bytes, end - kIndexBytes + at, value);
+    return with_field(bytes, 200, crc_of(bytes, kHeaderBytes, end - kHeaderBytes));
 }
+
+std::string bytes_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// A file as version 1 had them: what docs/format.md shows.
+std::string example_of_version_1() { return bytes_of(data_file("golden/file_1_example.vsplit")); }
 
 TEST(MrrFileTest, DecodesWhatItEncoded) {
     for (const std::size_t splits : {0, 1, 3, 4599, 20000}) {  // some 4000 fill a block
@@ -150,7 +176,9 @@ TEST(MrrFileTest, WorkedExampleOfTheQuantisedEncodingIsWhatIsMade) {
 }
 
 TEST(MrrFileTest, WorkedExampleOfTheFormatPageIsWhatIsWritten) {
-    const StoredMrr stored{{documented_base(), documented_records()}, 8, "{}"};
+    StoredMrr stored{{documented_base(), documented_records()}, 8, "{}"};
+    stored.unit = LengthUnit::kMillimetre;
+    stored.deviations = {{1, 0.25}};
     const std::string bytes = documented_bytes(data_file("../../docs/format.md"));
     EXPECT_EQ(bytes, encode_mrr(stored));
     const Expected<StoredMrr> decoded = decode(bytes);
@@ -208,52 +236,105 @@ TEST(MrrFileTest, OtherFilesAreNoMrr) {
 
 TEST(MrrFileTest, NewerVersionIsUnsupportedWhateverFollows) {
     std::string bytes = encode_mrr(example());
-    put(bytes, 8, 2);  // the rest may look like anything, checksum included
-    expect_error(bytes, Cause::kUnsupported, "byte 8: the file is of version 2");
+    put(bytes, 8, 3);  // the rest may look like anything, checksum included
+    expect_error(bytes, Cause::kUnsupported,
+                 "byte 8: the file is of version 3 of the format; this program reads versions 1 to 2");
+    expect_error(bytes.substr(0, 12), Cause::kUnsupported, "byte 8");
     expect_error(with_field(bytes, 8, 0), Cause::kCorrupt, "byte 8");
 }
 
 TEST(MrrFileTest, HeadersThatLie) {
     const std::string bytes = encode_mrr(example());
-    expect_error(with_field(bytes, 12, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 48");  // vertices
-    expect_error(with_field(bytes, 16, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 48");  // faces
-    expect_error(with_field(bytes, 36, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 48");  // description
+    expect_error(with_field(bytes, 16, 0xFFFFFFFF), Cause::kCorrupt, "byte 24");          // faces
+    expect_error(with_field(bytes, 36, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 208");  // description
+    expect_error(with_field(bytes, 40, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 208");  // blocks
+    expect_error(with_field(bytes, 60, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 208");  // base mesh
+    expect_error(with_field(bytes, 56, 143), Cause::kCorrupt, "byte 208: the checksum");
+    expect_error(with_field(bytes, 12, 3), Cause::kCorrupt, "byte 56: the base mesh takes 120 bytes, not 144");
+    expect_error(with_field(bytes, 12, 0xFFFFFFFF), Cause::kCorrupt, "byte 56");
     expect_error(with_field(bytes, 20, 5), Cause::kCorrupt, "5 ghosts among 4 vertices");
     expect_error(with_field(bytes, 20, 2), Cause::kCorrupt, "joins two ghosts");
     expect_error(with_field(bytes, 24, 0xFFFFFFFF), Cause::kCorrupt, "byte 24");  // splits
     expect_error(with_field(bytes, 24, 6), Cause::kCorrupt, "byte 24: 6 splits among 5 records");
     expect_error(with_field(bytes, 24, 4), Cause::kCorrupt, "byte 24: 3 of 5 records are splits, not 4");
     expect_error(with_field(bytes, 24, 2), Cause::kCorrupt, "more splits than the 2 announced");
-    expect_error(with_field(bytes, 28, 0xFFFFFFFF), Cause::kTruncatedInput, "after 5 of 4294967295 records");
-    expect_error(with_field(bytes, 28, 6), Cause::kTruncatedInput, "after 5 of 6 records");
+    expect_error(with_field(bytes, 28, 6), Cause::kCorrupt, "byte 28: the blocks have 5 records, not 6");
     expect_error(with_field(bytes, 28, 4), Cause::kCorrupt, "a block has records 0 and on, 5 in all");
-    expect_error(with_field(with_field(bytes, 24, 0), 28, 0), Cause::kCorrupt, "bytes follow the last of 0 records");
-    expect_error(with_field(bytes, 12, 3), Cause::kCorrupt, "byte 48: the checksum");
-    expect_error(bytes + "x", Cause::kCorrupt, "1 bytes follow the last of 5 records");
+    expect_error(with_field(bytes, 44, 0), Cause::kCorrupt, "byte 44: there is no encoding 0");
+    expect_error(with_field(bytes, 44, 4), Cause::kCorrupt, "byte 44: there is no encoding 4");
+    expect_error(with_field(bytes, 44, 2), Cause::kCorrupt, "byte 208: packed base mesh");
+    expect_error(with_field(bytes, 44, 3), Cause::kCorrupt, "byte 48: quantisation_bits is 0");
+    expect_error(with_field(bytes, 48, 14), Cause::kCorrupt, "byte 48: the encoding 1 has no grid");
+    expect_error(with_field(bytes, 52, 7), Cause::kCorrupt, "byte 52: there is no unit 7");
+    expect_error(with_field(bytes, 100, 0x80100000), Cause::kCorrupt, "byte 96: the largest error is no length");
+    expect_error(with_field(bytes, 108, 0x80100000), Cause::kCorrupt, "byte 104: a deviation is no length");
+    expect_error(with_field(bytes, 116, 0x40100000), Cause::kCorrupt, "byte 112: the bounding box");
+    expect_error(bytes + "x", Cause::kCorrupt, "bytes, and its header says");
+}
+
+TEST(MrrFileTest, IndicesThatLie) {
+    const std::string bytes = encode_mrr(example());
+    const std::string block = "byte " + std::to_string(blocks_of_example_at());
+    ASSERT_TRUE(with_index(bytes, 4, 5) == bytes);
+    expect_error(with_index(bytes, 0, 1), Cause::kCorrupt, "a block has records 1 and on");
+    expect_error(with_index(bytes, 4, 4), Cause::kCorrupt, "the blocks have 4 records, not 5");
+    expect_error(with_index(bytes, 4, 0), Cause::kCorrupt, "0 in all");
+    expect_error(with_index(bytes, 8, 2), Cause::kCorrupt, block + ": after the block from record 0 on there are 3 splits");
+    expect_error(with_index(bytes, 12, 8), Cause::kCorrupt, "10 faces, not 3 and 8 as the index says");
+    expect_error(with_index(bytes, 20, 0x80100000), Cause::kCorrupt, "a deviation is no length");
+    expect_error(with_index(bytes, 24, 5), Cause::kCorrupt, "a block begins at byte 5");
+    expect_error(with_index(bytes, 32, 0xFFFFFFFF), Cause::kTruncatedInput, "after 0 of 5 records");
+    expect_error(with_index(bytes, 36, 1), Cause::kCorrupt, block + ": record block from record 0 on: the CRC-32C");
+}
+
+TEST(MrrFileTest, FilesOfVersion1AreReadAndCheckedAsEver) {
+    const std::string bytes = example_of_version_1();
+    const Expected<StoredMrr> stored = decode(bytes);
+    ASSERT_TRUE(stored) << stored.error().message;
+    EXPECT_EQ(*stored, (StoredMrr{{documented_base(), documented_records()}, 8, "{}"}));
+    expect_error(with_field_1(bytes, 12, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 48");  // vertices
+    expect_error(with_field_1(bytes, 16, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 48");  // faces
+    expect_error(with_field_1(bytes, 36, 0xFFFFFFFF), Cause::kTruncatedInput, "byte 48");  // description
+    expect_error(with_field_1(bytes, 20, 5), Cause::kCorrupt, "5 ghosts among 4 vertices");
+    expect_error(with_field_1(bytes, 24, 0xFFFFFFFF), Cause::kCorrupt, "byte 24");  // splits
+    expect_error(with_field_1(bytes, 24, 1), Cause::kCorrupt, "more splits than the 1 announced");
+    expect_error(with_field_1(bytes, 28, 0xFFFFFFFF), Cause::kTruncatedInput, "after 4 of 4294967295 records");
+    expect_error(with_field_1(bytes, 28, 3), Cause::kCorrupt, "a block has records 0 and on, 4 in all");
+    expect_error(with_field_1(with_field_1(bytes, 24, 0), 28, 0), Cause::kCorrupt, "bytes follow the last of 0 records");
+    expect_error(with_field_1(bytes, 12, 3), Cause::kCorrupt, "byte 48: the checksum");
+    expect_error(bytes + "x", Cause::kCorrupt, "1 bytes follow the last of 4 records");
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+        std::string changed = bytes;
+        changed[at] = static_cast<char>(changed[at] ^ 1);
+        EXPECT_FALSE(decode(changed)) << "byte " << at;
+        const Expected<StoredMrr> cut = decode(bytes.substr(0, at));
+        ASSERT_FALSE(cut) << at;
+        EXPECT_EQ(cut.error().cause, Cause::kTruncatedInput) << at << ": " << cut.error().message;
+    }
 }
 
 TEST(MrrFileTest, BaseMeshMustBeClosedAndSound) {
     StoredMrr open = example();
     open.mrr.base.faces.pop_back();
     open.mrr.records.clear();
-    expect_error(encode_mrr(open), Cause::kCorrupt, "byte 48: the base mesh");
+    expect_error(encode_mrr(open), Cause::kCorrupt, "byte 208: the base mesh");
     StoredMrr out_of_range = example();
     out_of_range.mrr.base.faces[0][0] = 99;
-    expect_error(encode_mrr(out_of_range), Cause::kCorrupt, "byte 48: the base mesh");
+    expect_error(encode_mrr(out_of_range), Cause::kCorrupt, "byte 208: the base mesh");
     StoredMrr not_finite = example();
     not_finite.mrr.base.positions[0].x() = std::numeric_limits<double>::quiet_NaN();
-    expect_error(encode_mrr(not_finite), Cause::kCorrupt, "byte 48: the base mesh");
-    expect_error(encode_mrr(StoredMrr()), Cause::kCorrupt, "byte 48: the base mesh");
+    expect_error(encode_mrr(not_finite), Cause::kCorrupt, "byte 208: the base mesh");
+    expect_error(encode_mrr(StoredMrr()), Cause::kCorrupt, "byte 208: the base mesh");
     StoredMrr too_large = example();  // finite, but its squares are not
     too_large.mrr.base.positions[0].x() = 1e300;
-    expect_error(encode_mrr(too_large), Cause::kCorrupt, "byte 48: the base mesh");
+    expect_error(encode_mrr(too_large), Cause::kCorrupt, "byte 208: the base mesh");
 }
 
 TEST(MrrFileTest, RecordsMustFitTheMesh) {
     const auto refused = [](const RecordList& records, const std::string& what) {
-        const StoredMrr stored{{documented_base(), records}, 8, ""};
-        const std::size_t block_at = 48 + 4 * 24 + 4 * 12;
-        expect_error(encode_mrr(stored), Cause::kCorrupt, "byte " + std::to_string(block_at) + ": " + what);
+        const StoredMrr stored{{documented_base(), records}, 100, ""};
+        const std::string block_at = std::to_string(kHeaderBytes + 4 * 24 + 4 * 12 + kIndexBytes);
+        expect_error(encode_mrr(stored), Cause::kCorrupt, "byte " + block_at + ": record block from record 0 on: " + what);
     };
     const VertexSplit good{0, 1, {0, 0, 0}, {1, 1, 1}};
     refused({good, VertexSplit{18, 1, {0, 0, 0}, {1, 1, 1}}, good}, "record 1, vertex split: anchor 18");
@@ -269,17 +350,95 @@ TEST(MrrFileTest, EditsStandBeforeASplit) {
     expect_error(encode_mrr({{documented_base(), records}, 8, ""}), Cause::kCorrupt, "the last of 5 records is no split");
 }
 
-TEST(MrrFileTest, BlocksMustFollowEachOther) {
+MultiresMesh many_splits() {
     RecordList records;
     for (int n = 0; n < 5000; ++n) records.push_back(VertexSplit{0, 1, {0, 0, 0}, {1, 1, 1}});
-    std::string bytes = encode_mrr({{tetrahedron(), records}, 4, ""});  // two blocks
-    const std::size_t second = 48 + 4 * 24 + 4 * 12 + 20 + kMaxBlockBytes;
-    put(bytes, second, 0);
-    expect_error(bytes, Cause::kCorrupt, "byte " + std::to_string(second) + ": a block has records 0");
-    put(bytes, second, 4599);
+    return {tetrahedron(), records};
+}
+
+TEST(MrrFileTest, BlocksMustFollowEachOther) {
+    const std::string bytes = encode_mrr({many_splits(), 4, ""});  // two blocks
+    const std::size_t index = kHeaderBytes + 4 * 24 + 4 * 12, second = index + kIndexBytes;
+    const auto with = [&](std::size_t at, std::uint32_t value) {
+        std::string changed = bytes;
+        put(changed, at, value);
+        return with_field(changed, 200, crc_of(changed, kHeaderBytes, index + 2 * kIndexBytes - kHeaderBytes));
+    };
+    EXPECT_TRUE(with(second, 4599) == bytes);
     EXPECT_TRUE(decode(bytes));
-    put(bytes, second + 4, 0);
-    expect_error(bytes, Cause::kCorrupt, "byte " + std::to_string(second));
+    expect_error(with(second, 0), Cause::kCorrupt, "byte " + std::to_string(second) + ": a block has records 0");
+    expect_error(with(second + 4, 0), Cause::kCorrupt, "byte " + std::to_string(second));
+}
+
+TEST(MrrFileTest, EveryEncodingComesBackAsItWasRounded) {
+    for (const TriangleMesh& mesh : {torus(24, 12), punctured(torus(24, 12), {0, 40, 80})}) {
+        const StoredMrr exact{edited_mrr(mesh, 200, 4).mrr, 300, "{}"};
+        std::size_t larger = encode_mrr(exact).size();
+        for (const EncodingChoice choice : {EncodingChoice{RecordEncoding::kFloat32, 0},
+                                            {RecordEncoding::kQuantised, 20},
+                                            {RecordEncoding::kQuantised, 14},
+                                            {RecordEncoding::kQuantised, 10}}) {
+            const Expected<StoredMrr> rounded = in_encoding(exact, choice);
+            ASSERT_TRUE(rounded);
+            const std::string bytes = encode_mrr(*rounded);
+            EXPECT_LT(bytes.size(), larger);
+            larger = bytes.size();
+            const Expected<StoredMrr> decoded = decode(bytes);
+            ASSERT_TRUE(decoded) << decoded.error().message;
+            EXPECT_TRUE(*decoded == *rounded);
+            EXPECT_EQ(encode_mrr(*decoded), bytes);
+            EXPECT_EQ(decoded->mrr, on_grid(exact.mrr, decoded->grid));
+            EXPECT_GT(decoded->max_error, 0);
+            const TriangleMesh finest = mesh_at(exact.mrr, exact.mrr.levels());
+            const TriangleMesh got = mesh_at(decoded->mrr, decoded->mrr.levels());
+            ASSERT_EQ(got.faces, finest.faces);
+            for (std::size_t v = 0; v < finest.positions.size(); ++v)
+                EXPECT_LE((got.positions[v] - finest.positions[v]).cwiseAbs().maxCoeff(), decoded->max_error);
+            for (std::size_t at = 0; at < bytes.size(); at += 7) {
+                std::string changed = bytes;
+                changed[at] = static_cast<char>(changed[at] ^ 16);
+                EXPECT_FALSE(decode(changed)) << "byte " << at;
+                EXPECT_FALSE(decode(bytes.substr(0, at))) << at;
+            }
+        }
+    }
+    EXPECT_FALSE(in_encoding(example(), {RecordEncoding::kQuantised, 25}));
+}
+
+TEST(MrrFileTest, AHeaderSaysUnitSourceAndDeviations) {
+    StoredMrr stored{many_splits(), 2000, ""};
+    stored.unit = LengthUnit::kInch;
+    stored.source.emplace().fill(0xA5);
+    stored.deviations = {{0, 2.5}, {700, 1.25}, {5000, 0}};
+    const std::string bytes = encode_mrr(stored);
+    const Expected<StoredMrr> decoded = decode(bytes);
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_TRUE(*decoded == stored);
+    // Blocks end at level 700, at the level to show (998), and where they are full.
+    const MrrLayout layout = *read_mrr_layout(std::as_bytes(std::span(bytes)));
+    ASSERT_EQ(layout.blocks.size(), 3U);
+    EXPECT_EQ(layout.blocks[0].splits, 700U);
+    EXPECT_EQ(layout.blocks[0].faces, 1404U);
+    EXPECT_EQ(layout.blocks[0].deviation, 1.25);
+    EXPECT_EQ(layout.blocks[1].splits, 998U);
+    EXPECT_TRUE(std::isnan(layout.blocks[1].deviation));
+    EXPECT_EQ(layout.blocks[2].splits, 5000U);
+
+    const Expected<StoredMrr> rounded = in_encoding(stored, {RecordEncoding::kQuantised, 12});
+    ASSERT_TRUE(rounded);
+    EXPECT_GE(rounded->deviations[1].most, 1.25 + rounded->max_error);
+    EXPECT_LE(rounded->deviations[1].most, 1.25 + 2 * rounded->max_error);
+}
+
+TEST(MrrFileTest, ADeviationIsThatOfALevel) {
+    StoredMrr stored{{documented_base(), documented_records()}, 0, ""};
+    stored.mrr.records.truncate(3);  // the last is a move: what follows the block is no level
+    std::string bytes = encode_mrr(stored);
+    const std::size_t index = kHeaderBytes + 4 * 24 + 4 * 12;
+    put(bytes, index + 20, 0);  // the high half of NaN becomes that of a length
+    bytes = with_field(bytes, 24, 1);
+    bytes = with_field(bytes, 200, crc_of(bytes, kHeaderBytes, index + kIndexBytes - kHeaderBytes));
+    expect_error(bytes, Cause::kCorrupt, "which does not end with a split");
 }
 
 TEST(MrrFileTest, FilesAreSavedAndLoaded) {
@@ -304,7 +463,7 @@ TEST(MrrFileTest, BrokenFilesSayWhatIsWrongAndWhere) {
     };
     std::size_t listed = 0;
     for (const auto& [name, cause, place] :
-         {BrokenFile{"mrr_of_version_2.vsplit", Cause::kUnsupported, "byte 8"},
+         {BrokenFile{"mrr_of_version_3.vsplit", Cause::kUnsupported, "byte 8"},
           BrokenFile{"mrr_cut_in_header.vsplit", Cause::kTruncatedInput, "byte 30"},
           BrokenFile{"mrr_cut_in_block.vsplit", Cause::kTruncatedInput, "byte 330: the file ends after 0 of 4 records"},
           BrokenFile{"mrr_changed_header.vsplit", Cause::kCorrupt, "byte 44"},
@@ -312,7 +471,8 @@ TEST(MrrFileTest, BrokenFilesSayWhatIsWrongAndWhere) {
           BrokenFile{"mrr_changed_split.vsplit", Cause::kCorrupt, "byte 194: record block from record 0 on"},
           BrokenFile{"mrr_open_base.vsplit", Cause::kCorrupt, "byte 48: the base mesh"},
           BrokenFile{"mrr_ghosts_side_by_side.vsplit", Cause::kCorrupt, "byte 48: the base mesh: face 0 joins two ghosts"},
-          BrokenFile{"mrr_flips_twice.vsplit", Cause::kCorrupt, "byte 194: record 2, edge flip: at vertex 0 of valence under 4"},
+          BrokenFile{"mrr_flips_twice.vsplit", Cause::kCorrupt,
+                     "byte 194: record block from record 0 on: record 2, edge flip: at vertex 0 of valence under 4"},
           BrokenFile{"mrr_ends_with_a_move.vsplit", Cause::kCorrupt, "the last of 3 records is no split"},
           BrokenFile{"mrr_sent_as_text.vsplit", Cause::kUnknownFormat, "byte 0"}}) {
         SCOPED_TRACE(name);

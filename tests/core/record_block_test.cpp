@@ -39,6 +39,16 @@ void expect_corrupt(const RecordBlock& block, const std::string& what) {
     EXPECT_NE(records.error().message.find(std::to_string(block.first)), std::string::npos) << records.error().message;
 }
 
+TEST(RecordBlockTest, MemoryOfABlockBeforeLeavesNoTrace) {
+    const RecordList records{VertexMove{1, {1, 2, 3}}, VertexSplit{3, 1, {1, 2, 3}, {4, 5, 6}}};
+    const RecordBlock fresh = encode_block(records, 7, RecordEncoding::kFloat64);
+    for (const std::size_t size : {1U, 100U, 100'000U}) {
+        const RecordBlock again = encode_block(records, 7, RecordEncoding::kFloat64, std::string(size, 'x'));
+        EXPECT_EQ(again.payload, fresh.payload);
+        EXPECT_EQ(again.crc32c, fresh.crc32c);
+    }
+}
+
 TEST(RecordBlockTest, Crc32cOfTheCheckString) {
     // The check value of CRC-32C, and of RFC 3720 B.4.
     const std::string digits = "123456789";
@@ -46,6 +56,18 @@ TEST(RecordBlockTest, Crc32cOfTheCheckString) {
     EXPECT_EQ(crc32c(std::vector<std::byte>(32, std::byte{0})), 0x8A9136AAU);
     EXPECT_EQ(crc32c(std::vector<std::byte>(32, std::byte{0xFF})), 0x62A8AB43U);
     EXPECT_EQ(crc32c({}), 0U);
+    // Bit by bit, for lengths that are no multiple of what is taken at once.
+    Random random(3);
+    std::vector<std::byte> bytes;
+    std::uint32_t crc = 0xFFFFFFFFU;
+    for (int length = 1; length < 300; ++length) {
+        bytes.push_back(static_cast<std::byte>(random.below(256)));
+        crc ^= static_cast<std::uint32_t>(bytes.back());
+        for (int bit = 0; bit < 8; ++bit) crc = crc >> 1U ^ ((crc & 1U) != 0 ? 0x82F63B78U : 0U);
+        ASSERT_EQ(crc32c(bytes), ~crc) << length;
+        ASSERT_EQ(crc32c(std::span(bytes).subspan(bytes.size() / 2)),
+                  crc32c(std::vector(bytes.begin() + length / 2, bytes.end())));
+    }
 }
 
 TEST(RecordBlockTest, GoldenBytes) {

@@ -11,10 +11,6 @@ namespace {
 
 using namespace vsplit;
 
-// docs/format.md
-constexpr std::size_t kHeader = 48;
-constexpr std::size_t kBlockHeader = 20;
-
 std::uint32_t get(const std::uint8_t* from) { return from[0] | from[1] << 8U | from[2] << 16U | std::uint32_t{from[3]} << 24U; }
 
 void put(std::uint8_t* to, std::uint32_t value) {
@@ -23,8 +19,10 @@ void put(std::uint8_t* to, std::uint32_t value) {
 
 std::uint32_t crc(const std::uint8_t* data, std::size_t size) { return crc32c(std::as_bytes(std::span(data, size))); }
 
-/// Makes the checksums fit: what is behind them is to be tried, and no mutation finds a checksum.
-void mend_checksums(std::uint8_t* data, std::size_t size) {
+// Checksums are made to fit: what is behind them is to be tried, and no mutation finds one. Offsets are those of docs/format.md.
+
+void mend_version_1(std::uint8_t* data, std::size_t size) {
+    constexpr std::size_t kHeader = 48, kBlockHeader = 20;
     if (size < kHeader) return;
     const std::uint64_t base = 24 * std::uint64_t{get(data + 12)} + 12 * std::uint64_t{get(data + 16)} + get(data + 36);
     if (base <= size - kHeader) {
@@ -37,6 +35,35 @@ void mend_checksums(std::uint8_t* data, std::size_t size) {
         }
     }
     put(data + 44, crc(data, 44));
+}
+
+/// Sizes too: the file's, and where blocks begin.
+void mend_version_2(std::uint8_t* data, std::size_t size) {
+    constexpr std::size_t kHeader = 208, kEntry = 40;
+    if (size < kHeader) return;
+    put(data + 192, static_cast<std::uint32_t>(size));
+    put(data + 196, 0);
+    const std::uint64_t index_at = kHeader + std::uint64_t{get(data + 56)} + get(data + 36);
+    const std::uint64_t blocks_at = index_at + kEntry * std::uint64_t{get(data + 40)};
+    if (get(data + 60) == 0 && blocks_at <= size) {
+        std::uint64_t block_at = blocks_at;
+        for (std::uint64_t entry = index_at; entry < blocks_at; entry += kEntry) {
+            const std::uint64_t payload = get(data + entry + 32);
+            if (payload > size - block_at) break;
+            put(data + entry + 24, static_cast<std::uint32_t>(block_at));
+            put(data + entry + 28, 0);
+            put(data + entry + 36, crc(data + block_at, payload));
+            block_at += payload;
+        }
+        put(data + 200, crc(data + kHeader, blocks_at - kHeader));
+    }
+    put(data + 204, crc(data, 204));
+}
+
+void mend_checksums(std::uint8_t* data, std::size_t size) {
+    if (size < 12) return;
+    if (get(data + 8) == 1) mend_version_1(data, size);
+    if (get(data + 8) == 2) mend_version_2(data, size);
 }
 
 }  // namespace

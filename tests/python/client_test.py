@@ -89,6 +89,21 @@ class ClientTest(unittest.TestCase):
         self.assertEqual(len(flat), 4 * len(cells[0][1]))
         self.assertTrue((flat[::4] == 3).all())
 
+    def test_files_of_every_version_and_encoding_are_read(self):
+        golden = DATA / "golden"
+        for shape in ("closed", "open"):
+            points, faces = vsplit.load(golden / f"file_1_{shape}.vsplit").at(10**6)
+            for name, error in (("float64", 0), ("float32", 1e-6), ("quantised14", 1e-3)):
+                mesh = vsplit.load(golden / f"file_2_{name}_{shape}.vsplit")
+                same_points, same_faces = mesh.at(10**6)
+                np.testing.assert_array_equal(same_faces, faces)
+                np.testing.assert_allclose(same_points, points, rtol=0, atol=error)
+                self.assertEqual(len(mesh.at(10**6)[1]), mesh.faces_max)
+                self.assertLess(len(mesh.at()[1]), mesh.faces_max)
+        for path in (DATA / "broken").glob("*.vsplit"):
+            with self.assertRaises(vsplit.CorruptError, msg=path):
+                vsplit.load(path)
+
     def test_damage_is_refused(self):
         decoder = vsplit.mesh.Decoder()
         with self.assertRaisesRegex(vsplit.CorruptError, "no base mesh"):

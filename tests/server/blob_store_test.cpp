@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <fstream>
 #include <string>
@@ -55,6 +56,22 @@ TEST_F(FileBlobStoreTest, GivesBackWhatItKeepsAlsoAfterItIsOpenedAnew) {
     const auto found = store->get(key);
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(text_of((*found)->bytes()), "head" + large);
+}
+
+TEST_F(FileBlobStoreTest, ABlobThatCannotBeReadJustNowStays) {
+    const auto store = open();
+    const auto kept = put(*store, "a mesh");
+    ASSERT_TRUE(kept);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+    rlimit none = before;
+    none.rlim_cur = 0;  // no descriptor is free
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+    const auto again = put(*store, "a mesh");
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+    ASSERT_FALSE(again);
+    EXPECT_THAT(again.error().message, HasSubstr("Too many open files"));
+    EXPECT_TRUE(store->get(kept->key));
 }
 
 TEST_F(FileBlobStoreTest, TheSameBytesAreKeptOnce) {

@@ -26,7 +26,7 @@ protected:
     }
 
     test::TempDirectory scratch_;
-    const std::filesystem::path directory_ = scratch_.path() / "data" / "vsplit";
+    std::filesystem::path directory_ = scratch_.path() / "data" / "vsplit";
     std::string told_;
 };
 
@@ -170,6 +170,24 @@ TEST_F(DataDirTest, ALogThatIsDamagedInTheMiddleIsKept) {
     EXPECT_EQ(told_, "") << "once";
 }
 
+TEST_F(DataDirTest, ALogThatIsDamagedInTheMiddleIsKeptOnceWhateverEndsTheServer) {
+    make_killed_index(directory_, 4);
+    const auto path = directory_ / "sessions.db-wal";
+    const auto log = std::filesystem::file_size(path);
+    std::fstream(path, std::ios::in | std::ios::out).seekp(static_cast<std::streamoff>(log / 2)).write("?!", 2);
+    const auto killed = scratch_.path() / "killed";
+    {
+        const auto running = open();
+        ASSERT_TRUE(running);
+        std::filesystem::copy(directory_, killed, std::filesystem::copy_options::recursive);
+    }
+    told_.clear();
+    directory_ = killed;
+    ASSERT_TRUE(open());
+    EXPECT_EQ(told_, "");
+    EXPECT_FALSE(std::filesystem::exists(killed / "damaged-2"));
+}
+
 TEST_F(DataDirTest, ALogThatACrashCutShortIsNotReported) {
     make_killed_index(directory_, 4);
     const auto path = directory_ / "sessions.db-wal";
@@ -282,6 +300,33 @@ TEST_F(DamagedIndexTest, ABitThatChangesLosesAPageOfSessionsAtMost) {
         std::string damaged = written_;
         damaged[at] = static_cast<char>(damaged[at] ^ 1 << at % 8);
         EXPECT_GE(served_of(damaged) + 8, kSessions) << at << ": " << told_;
+    }
+}
+
+/// However far a server got that was killed while it replaced its index.
+TEST_F(DamagedIndexTest, AnEndWhileTheIndexIsReplacedLosesNothing) {
+    std::string damaged = written_;
+    damaged[damaged.find("made INTEGER")] = 'n';
+    // The damaged one was kept, and another one begun.
+    put(damaged);
+    std::filesystem::create_directories(directory_ / "damaged-1");
+    std::filesystem::create_hard_link(file(), directory_ / "damaged-1" / "sessions.db");
+    std::ofstream(directory_ / "sessions.db.new", std::ios::binary) << written_.substr(0, 5000);
+    std::ofstream(directory_ / "sessions.db.new-wal", std::ios::binary) << "half";
+    ASSERT_TRUE(open());
+    EXPECT_THAT(told_, HasSubstr("100 sessions with 100 representations"));
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "damaged-2")) << "the same files are kept once";
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "sessions.db.new"));
+    // The new one was ready, and the log of the old one still there, or all of the old one gone.
+    for (const bool old_is_there : {true, false}) {
+        put(damaged);
+        std::ofstream(file().string() + "-wal", std::ios::binary) << std::string(5000, 'x');
+        std::ofstream(directory_ / "sessions.db.ready", std::ios::binary) << written_;
+        if (!old_is_there) std::filesystem::remove(file());
+        ASSERT_TRUE(open());
+        EXPECT_EQ(told_, "");
+        EXPECT_EQ((*(*SqliteSessionIndex::open(file()))->load()).sessions.size(), kSessions);
+        EXPECT_FALSE(std::filesystem::exists(directory_ / "sessions.db.ready"));
     }
 }
 

@@ -115,6 +115,50 @@ TEST_F(LiveMeshTest, AThousandJumpsOverOneConnectionGiveWhatDownloadMeshGives) {
     }
 }
 
+TEST_F(LiveMeshTest, JumpsByKeyframesGiveWhatDownloadMeshGives) {
+    MeshingClient client = connect();
+    MeshReceiver receiver;
+    client::ResolutionTarget to = target(0, kChoices[0]);
+    to.keyframes = true;
+    int keyframes = 0, records = 0;
+    for (int jump = 0; jump < 100; ++jump) {
+        if (jump % 20 == 19) receiver = MeshReceiver();
+        const bool from_nothing = !receiver.has_mesh();
+        to.faces = from_nothing ? made_.faces_max() - 50 * static_cast<std::uint32_t>(jump) : some_faces();
+        const std::uint32_t least = from_nothing ? 0 : receiver.held().faces_min();
+        const auto shown = move_to(client, to, receiver);
+        ASSERT_TRUE(shown) << shown.error().message;
+        ASSERT_EQ(receiver.mesh(), downloaded(to.faces, PositionGrid())) << "jump " << jump << " to " << to.faces;
+        if (receiver.on_keyframe() && receiver.held().faces_min() != least) ++keyframes;
+        if (receiver.held().levels() > 0) ++records;
+    }
+    EXPECT_GT(keyframes, 5);
+    EXPECT_GT(records, 5);
+}
+
+TEST_F(LiveMeshTest, AKeyframeIsLessToReceiveAndKeepsWhatWasThere) {
+    MeshingClient client = connect();
+    MeshReceiver receiver;
+    client::ResolutionTarget to = target(made_.faces_min(), kChoices[0]);
+    to.keyframes = true;
+    ASSERT_TRUE(move_to(client, to, receiver));
+    const TriangleMesh coarsest = receiver.mesh();
+    ASSERT_FALSE(receiver.on_keyframe());
+    to.faces = made_.faces_max();
+    ASSERT_TRUE(move_to(client, to, receiver));
+    ASSERT_TRUE(receiver.on_keyframe());
+    EXPECT_EQ(receiver.mesh(), downloaded(made_.faces_max(), PositionGrid()));
+    EXPECT_EQ(receiver.records_held(), made_.records().splits() + made_.records().flips() + made_.records().moves());
+    // Down again without a server.
+    MeshingClient nobody = std::move(client);
+    server_.server().shutdown(std::chrono::milliseconds(0));
+    to.faces = made_.faces_min();
+    const auto shown = move_to(nobody, to, receiver);
+    ASSERT_TRUE(shown) << shown.error().message;
+    EXPECT_EQ(receiver.mesh(), coarsest);
+    EXPECT_FALSE(receiver.on_keyframe());
+}
+
 TEST_F(LiveMeshTest, AConnectionThatIsCutFiftyTimesStartsNothingOver) { cut_fifty_times(kChoices[0]); }
 TEST_F(LiveMeshTest, NorInSinglePrecision) { cut_fifty_times(kChoices[1]); }
 TEST_F(LiveMeshTest, NorQuantised) { cut_fifty_times(kChoices[2]); }

@@ -175,7 +175,7 @@ TEST(ManySessionsServiceTest, ShutdownWhileEverythingRunsTellsEveryJob) {
         const std::string id = service->create_session(bytes_of(file), {})->id;
         for (int i = 0; i < 3; ++i) running.push_back(std::make_unique<Running>(*service, id, small_improve()));
     }
-    service.reset();
+    service->shutdown();
     for (const auto& one : running) {
         const JobOutcome outcome = one->wait();
         EXPECT_TRUE(outcome || outcome.error().cause == Cause::kUnavailable);

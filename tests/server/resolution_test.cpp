@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "tests/core/meshes.h"
+#include "vsplit/mrr/progressive_mesh.h"
 
 namespace vsplit::service {
 namespace {
@@ -61,6 +62,47 @@ TEST(ResolutionTest, WhoHoldsALevelGetsWhatIsMissing) {
     EXPECT_FALSE(p.with_base);
     EXPECT_EQ(p.first_record, 6U);
     EXPECT_EQ(p.last_record, 15U);
+}
+
+/// A tetrahedron that splits `splits` times, each after `moves` moves.
+SessionSnapshot session_of_splits(int splits, int moves, bool regions = false) {
+    SessionSnapshot session;
+    MultiresMesh mrr;
+    mrr.base = test::tetrahedron();
+    for (int split = 0; split < splits; ++split) {
+        for (int move = 0; move < moves; ++move) mrr.records.push_back(VertexMove{0, Vec3(0, 0, split)});
+        mrr.records.push_back(VertexSplit{0, 1, Vec3(0, 0, 0), Vec3(1, 1, split)});
+    }
+    if (regions) mrr.regions.resize(4 + 2 * static_cast<std::size_t>(splits), 1);
+    session.representations.push_back(representation_of("r1", mrr, 14));
+    return session;
+}
+
+TEST(ResolutionTest, AKeyframeIsTheMeshWhereItIsLessThanTheWay) {
+    // A split takes 57 bytes and 29 more for each move, and makes the mesh 24 + 2 * 12 larger.
+    const SessionSnapshot session = session_of_splits(100, 1);
+    const auto plan_for = [&](std::uint32_t held, std::uint32_t wanted, bool keyframe) {
+        return *plan_in(session, {"r1", held, wanted, 0, keyframe});
+    };
+    EXPECT_EQ(plan_for(0, 204, false).keyframe, nullptr);
+    const ResolutionPlan from_nothing = plan_for(0, 204, true);
+    ASSERT_NE(from_nothing.keyframe, nullptr);
+    EXPECT_TRUE(from_nothing.with_base);
+    EXPECT_EQ(from_nothing.first_record, 200U);
+    EXPECT_EQ(from_nothing.last_record, 200U);
+    EXPECT_EQ(*from_nothing.keyframe, mesh_at(from_nothing.levels->mrr(), 100));
+    // 4 vertices, 4 faces and 100 times 48 bytes: 4944. Records of 57 splits and moves take 4902, of 58 4988.
+    EXPECT_EQ(plan_for(4 + 2 * 43, 204, true).keyframe, nullptr);
+    EXPECT_NE(plan_for(4 + 2 * 42, 204, true).keyframe, nullptr);
+    EXPECT_EQ(plan_for(204, 204, true).keyframe, nullptr);
+    EXPECT_EQ(plan_for(204, 8, true).keyframe, nullptr);
+}
+
+TEST(ResolutionTest, AKeyframeBringsRegionsAgain) {
+    const SessionSnapshot bare = session_of_splits(100, 0), with = session_of_splits(100, 0, true);
+    EXPECT_NE(plan_in(bare, {"r1", 4, 204, 0, true})->keyframe, nullptr);  // 4944 bytes against 5700
+    EXPECT_EQ(plan_in(with, {"r1", 4, 204, 0, true})->keyframe, nullptr);  // and 816 of regions
+    EXPECT_NE(plan_in(with, {"r1", 0, 204, 0, true})->keyframe, nullptr);  // which come either way
 }
 
 TEST(ResolutionTest, CoarserSendsNothing) {

@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "backoff.h"
 #include "vsplit/base/execution_context.h"
 #include "wire/convert.h"
 
@@ -40,20 +41,12 @@ v1::SetResolutionRequest request_for(const ResolutionTarget& target, const MeshR
     request.set_faces(target.faces);
     request.set_encoding(wire::to_proto(encoding.encoding));
     request.set_quantisation_bits(encoding.bits);
+    request.set_keyframe(target.keyframes);
     if (!receiver.has_mesh()) return request;
     // Faces say what is held where no record is, records also where it ends between two splits.
     if (receiver.records_held() == 0) request.set_faces_held(receiver.faces_held());
     request.set_resume_from(receiver.records_held());
     return request;
-}
-
-/// False when stopped.
-bool pause(std::chrono::milliseconds time, const std::stop_token& stop) {
-    std::mutex mutex;
-    std::condition_variable_any over;
-    std::unique_lock lock(mutex);
-    over.wait_for(lock, stop, time, [] { return false; });
-    return !stop.stop_requested();
 }
 
 std::size_t state_of(const MeshReceiver& receiver) { return receiver.has_mesh() ? 1 + receiver.records_held() : 0; }
@@ -65,22 +58,23 @@ Expected<std::uint32_t> shown(MeshReceiver& receiver, std::uint32_t faces, const
 
 Expected<std::uint32_t> move_guarded(MeshingClient& client, const ResolutionTarget& target, MeshReceiver& receiver,
                                      const ResumeOptions& resume, const CallOptions& call, const Guard& guard) {
-    if (receiver.has_mesh() && target.faces < receiver.faces_held()) return shown(receiver, target.faces, guard);
+    const auto leave = [&receiver] {
+        receiver.leave_keyframe();
+        return Status(Done{});
+    };
+    if (receiver.on_keyframe() && target.faces < receiver.held().faces_min()) {
+        if (Status left = guard(leave); !left) return left.error();
+    }
+    if (receiver.has_mesh() && target.faces <= receiver.faces_held()) return shown(receiver, target.faces, guard);
     const EventHandlers handlers = guarded_handlers(receiver, guard);
-    auto wait = resume.first_wait;
-    for (int failed = 0;;) {
+    Backoff backoff(resume, call.stop);
+    for (;;) {
         const std::size_t before = state_of(receiver);
         const auto made = client.set_resolution(request_for(target, receiver), handlers, call);
         if (made) return shown(receiver, made->faces(), guard);
         if (made.error().cause != Cause::kUnavailable) return made.error();
-        if (state_of(receiver) != before) {
-            failed = 0;
-            wait = resume.first_wait;
-        } else if (++failed >= resume.attempts) {
-            return made.error();
-        }
-        if (!pause(wait, call.stop)) return ExecutionContext::cancelled_error();
-        wait = std::min(2 * wait, resume.longest_wait);
+        if (state_of(receiver) != before) backoff.reset();
+        if (!backoff.again()) return call.stop.stop_requested() ? ExecutionContext::cancelled_error() : made.error();
     }
 }
 

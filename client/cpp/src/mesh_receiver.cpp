@@ -22,7 +22,12 @@ EventHandlers MeshReceiver::handlers(std::function<void(const v1::Progress&)> on
 }
 
 Status MeshReceiver::begin(StreamBase base) {
+    const std::uint32_t first = base.first_record;
+    Before before;
+    if (first != 0) before = on_keyframe() ? before_ : Before{held_, progressive_};
     if (Status begun = begin(std::move(base.mesh), base.ghosts); !begun) return begun;
+    before_ = std::move(before);
+    first_record_ = first;
     codec_ = RecordCodec(base.grid);
     max_error_ = base.max_error;
     return Done{};
@@ -35,10 +40,20 @@ Status MeshReceiver::begin(TriangleMesh base, std::uint32_t ghosts) {
     const std::uint32_t ghost_faces = count_ghost_faces(base, ghosts);
     held_ = {std::move(base), {}, ghosts, ghost_faces, {}};
     progressive_ = *std::move(mesh);
+    first_record_ = 0;
+    before_ = {};
     visible_records_.reset();
     codec_ = RecordCodec();
     max_error_ = 0;
     return Done{};
+}
+
+void MeshReceiver::leave_keyframe() {
+    held_ = std::move(before_.held);
+    progressive_ = std::move(before_.progressive);
+    before_ = {};
+    first_record_ = 0;
+    visible_records_.reset();
 }
 
 Status MeshReceiver::check_place(std::uint32_t first) const {

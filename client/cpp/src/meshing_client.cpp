@@ -1,7 +1,10 @@
 #include "vsplit/client/meshing_client.h"
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
+#include "backoff.h"
 #include "call.h"
 #include "connect.h"
 #include "download.h"
@@ -24,6 +27,22 @@ struct MeshingClient::Impl {
         const grpc::Status status = ((*stub).*method)(call.context(), request, &response);
         if (!status.ok()) return call_error(status, target);
         return response;
+    }
+
+    /// The same for a call that is safe to make again, which it is while the server cannot be reached.
+    template <class Response, class Request>
+    Expected<Response> retried(grpc::Status (v1::Meshing::Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+                               const Request& request, const CallOptions& options) const {
+        using Clock = std::chrono::steady_clock;
+        const Clock::time_point begin = Clock::now();
+        Backoff backoff(options.retry, options.stop);
+        for (CallOptions once = options;;) {
+            Expected<Response> answer = unary(method, request, once);
+            if (answer || answer.error().cause != Cause::kUnavailable || !backoff.again()) return answer;
+            if (!options.deadline) continue;
+            const auto spent = std::chrono::ceil<std::chrono::milliseconds>(Clock::now() - begin);
+            once.deadline = std::max(*options.deadline - spent, std::chrono::milliseconds(0));
+        }
     }
 
     /// A call that streams events: `method` is the stub's.
@@ -79,23 +98,23 @@ Expected<v1::Session> MeshingClient::upload_mesh(const std::string& session, std
 Expected<v1::Session> MeshingClient::get_session(const std::string& session, const CallOptions& call) {
     v1::GetSessionRequest request;
     request.set_session(session);
-    return impl_->unary(&v1::Meshing::Stub::GetSession, request, call);
+    return impl_->retried(&v1::Meshing::Stub::GetSession, request, call);
 }
 
 Expected<v1::ListSessionsResponse> MeshingClient::list_sessions(const v1::ListSessionsRequest& request, const CallOptions& call) {
-    return impl_->unary(&v1::Meshing::Stub::ListSessions, request, call);
+    return impl_->retried(&v1::Meshing::Stub::ListSessions, request, call);
 }
 
 Expected<v1::Session> MeshingClient::keep_alive(const std::string& session, const CallOptions& call) {
     v1::KeepAliveRequest request;
     request.set_session(session);
-    return impl_->unary(&v1::Meshing::Stub::KeepAlive, request, call);
+    return impl_->retried(&v1::Meshing::Stub::KeepAlive, request, call);
 }
 
 Status MeshingClient::delete_session(const std::string& session, const CallOptions& call) {
     v1::DeleteSessionRequest request;
     request.set_session(session);
-    const auto deleted = impl_->unary(&v1::Meshing::Stub::DeleteSession, request, call);
+    const auto deleted = impl_->retried(&v1::Meshing::Stub::DeleteSession, request, call);
     if (!deleted) return deleted.error();
     return Done{};
 }
@@ -121,11 +140,11 @@ Expected<std::uint32_t> MeshingClient::download_mesh(const v1::DownloadMeshReque
 }
 
 Expected<v1::Quality> MeshingClient::get_quality(const v1::GetQualityRequest& request, const CallOptions& call) {
-    return impl_->unary(&v1::Meshing::Stub::GetQuality, request, call);
+    return impl_->retried(&v1::Meshing::Stub::GetQuality, request, call);
 }
 
 Expected<v1::ListFeaturesResponse> MeshingClient::list_features(const v1::ListFeaturesRequest& request, const CallOptions& call) {
-    return impl_->unary(&v1::Meshing::Stub::ListFeatures, request, call);
+    return impl_->retried(&v1::Meshing::Stub::ListFeatures, request, call);
 }
 
 Expected<v1::RemoveFeaturesResponse> MeshingClient::remove_features(const v1::RemoveFeaturesRequest& request,

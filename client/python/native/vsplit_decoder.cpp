@@ -7,6 +7,7 @@
 #include <string>
 
 #include "vsplit/mrr/base_codec.h"
+#include "vsplit/mrr/mrr_file.h"
 #include "vsplit/mrr/record_codec.h"
 
 using vsplit::Cause;
@@ -35,6 +36,14 @@ struct vsplit_decoder {
         codec = vsplit::RecordCodec(grid);
         visible = mesh->visible();
         return Done{};
+    }
+
+    Status load(std::span<const std::byte> bytes) {
+        Expected<vsplit::StoredMrr> stored = vsplit::decode_mrr(bytes);
+        if (!stored) return stored.error();
+        if (Status begun = begin(stored->mrr.base, stored->mrr.ghosts, stored->grid); !begun) return begun;
+        held = std::move(stored->mrr);
+        return show(stored->faces);
     }
 
     Status go_to(std::size_t records) {
@@ -113,6 +122,10 @@ int vsplit_decoder_begin_packed(vsplit_decoder* decoder, const std::uint8_t* byt
         if (!base) return base.error();
         return decoder->begin(*std::move(base), ghosts, *grid);
     });
+}
+
+int vsplit_decoder_load(vsplit_decoder* decoder, const std::uint8_t* bytes, std::size_t size) {
+    return guarded(decoder, [&] { return decoder->load(std::as_bytes(std::span(bytes, size))); });
 }
 
 int vsplit_decoder_append(vsplit_decoder* decoder, std::uint32_t first, std::uint32_t count, std::uint32_t encoding,

@@ -27,6 +27,9 @@ int vsplit_decoder_begin(vsplit_decoder* decoder, const double* positions, uint3
 int vsplit_decoder_begin_packed(vsplit_decoder* decoder, const uint8_t* bytes, size_t size, uint32_t vertices, uint32_t faces,
                                 uint32_t ghosts, uint32_t encoding, uint32_t bits, const double* origin, double step);
 
+/// Begins with the bytes of a `.vsplit` file, and brings all its records. The level to show is shown.
+int vsplit_decoder_load(vsplit_decoder* decoder, const uint8_t* bytes, size_t size);
+
 /// The fields of a RecordBlock.
 int vsplit_decoder_append(vsplit_decoder* decoder, uint32_t first, uint32_t count, uint32_t encoding, uint32_t crc32c,
                           const uint8_t* payload, size_t size);

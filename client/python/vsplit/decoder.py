@@ -10,7 +10,7 @@ _BYTES = ctypes.c_char_p
 
 
 class CorruptError(Exception):
-    """What came from the server is damaged, or does not fit what came before."""
+    """What came from the server, or a file, is damaged, or does not fit what came before."""
 
 
 def _load():
@@ -25,6 +25,7 @@ def _load():
         ("begin", ctypes.c_int, [pointer, doubles, _U32, indices, _U32, _U32]),
         ("begin_packed", ctypes.c_int,
          [pointer, _BYTES, ctypes.c_size_t, _U32, _U32, _U32, _U32, _U32, ctypes.c_double * 3, ctypes.c_double]),
+        ("load", ctypes.c_int, [pointer, _BYTES, ctypes.c_size_t]),
         ("append", ctypes.c_int, [pointer, _U32, _U32, _U32, _U32, _BYTES, ctypes.c_size_t]),
         ("show", ctypes.c_int, [pointer, _U32]),
         ("faces_held", _U32, [pointer]),
@@ -66,6 +67,9 @@ class Decoder:
         self._check(_library.vsplit_decoder_begin_packed(
             self._decoder, packed, len(packed), part.vertices, part.faces, part.ghosts, part.encoding,
             part.quantisation_bits, origin, part.step))
+
+    def load(self, data):
+        self._check(_library.vsplit_decoder_load(self._decoder, data, len(data)))
 
     def append(self, block):
         self._check(_library.vsplit_decoder_append(

@@ -1,189 +1,148 @@
-#include <algorithm>
-#include <limits>
+#include <cmath>
 #include <optional>
 
 #include "base/byte_order.h"
 #include "mrr/mrr_layout.h"
 #include "mrr/region_section.h"
+#include "vsplit/mrr/base_codec.h"
 #include "vsplit/mrr/mrr_file.h"
 #include "vsplit/mrr/progressive_mesh.h"
-#include "vsplit/mrr/record_block.h"
+#include "vsplit/mrr/record_codec.h"
 
 namespace vsplit {
 namespace {
 
-Error error_at(Cause cause, std::size_t byte, const std::string& what) {
-    return {cause, "byte " + std::to_string(byte) + ": " + what, ""};
-}
-
-/// Reads a `.vsplit` file front to back. Nothing is taken from it that was not checked, and every record is tried on a mesh.
+/// Makes an MRR of a file that was taken apart. Every record is tried on a mesh.
 class MrrDecoder {
 public:
-    explicit MrrDecoder(std::span<const std::byte> bytes) : bytes_(bytes) {}
+    explicit MrrDecoder(MrrLayout layout) : layout_(std::move(layout)), codec_(layout_.grid) {}
 
     Expected<StoredMrr> decode() {
-        for (const auto step : {&MrrDecoder::check_magic, &MrrDecoder::check_header, &MrrDecoder::check_sizes,
-                                &MrrDecoder::read_base, &MrrDecoder::read_blocks, &MrrDecoder::check_end}) {
+        for (const auto step :
+             {&MrrDecoder::read_base, &MrrDecoder::read_blocks, &MrrDecoder::check_end, &MrrDecoder::check_box}) {
             if (const Status status = (this->*step)(); !status) return status.error();
         }
+        stored_.faces = layout_.shown;
+        stored_.description.assign(reinterpret_cast<const char*>(layout_.description.data()), layout_.description.size());
+        stored_.grid = layout_.grid;
+        stored_.max_error = layout_.max_error;
+        stored_.unit = layout_.unit;
+        stored_.source = layout_.source;
         return std::move(stored_);
     }
 
 private:
-    [[nodiscard]] std::uint32_t field(std::size_t at) const { return load<std::uint32_t>(bytes_.data() + at); }
-    [[nodiscard]] std::size_t left() const { return bytes_.size() - at_; }
+    [[nodiscard]] RecordList& records() { return stored_.mrr.records; }
 
-    Status check_magic() {
-        const std::size_t present = std::min(kMrrMagic.size(), bytes_.size());
-        const std::string_view begin(reinterpret_cast<const char*>(bytes_.data()), present);
-        if (begin != kMrrMagic.substr(0, present)) {
-            return error_at(Cause::kUnknownFormat, 0,
-                            "this is no .vsplit file; one begins with the bytes 89 56 53 50 0d 0a 1a 0a");
+    /// \pre the base is not packed: its bytes are as many as the counts say.
+    [[nodiscard]] TriangleMesh plain_base() const {
+        TriangleMesh base;
+        const std::byte* at = layout_.base.data();
+        base.positions.resize(layout_.vertices);
+        for (Vec3& position : base.positions) {
+            for (int axis = 0; axis < 3; ++axis, at += sizeof(double)) position[axis] = load<double>(at);
         }
-        if (bytes_.size() >= kMrrHeaderBytes) return Done{};
-        return error_at(Cause::kTruncatedInput, bytes_.size(),
-                        "the file ends within its header of " + std::to_string(kMrrHeaderBytes) + " bytes");
-    }
-
-    Status check_header() {
-        const std::uint32_t version = field(kMrrVersionAt);
-        if (version > kMrrVersion) {
-            return error_at(Cause::kUnsupported, kMrrVersionAt,
-                            "the file is of version " + std::to_string(version) + " of the format; this program reads version " +
-                                std::to_string(kMrrVersion));
+        base.faces.resize(layout_.faces);
+        for (Triangle& face : base.faces) {
+            for (std::uint32_t& vertex : face) {
+                vertex = load<std::uint32_t>(at);
+                at += sizeof(vertex);
+            }
         }
-        if (crc32c(bytes_.first(kMrrHeaderCrcAt)) != field(kMrrHeaderCrcAt)) {
-            return error_at(Cause::kCorrupt, kMrrHeaderCrcAt, "the header's checksum does not fit it");
-        }
-        if (version == kMrrVersion) return Done{};
-        return error_at(Cause::kCorrupt, kMrrVersionAt, "there is no version " + std::to_string(version) + " of the format");
-    }
-
-    /// What the header announces must be there, and every corner must have a number.
-    Status check_sizes() {
-        at_ = kMrrHeaderBytes;
-        base_bytes_ = std::uint64_t{field(kMrrVerticesAt)} * kMrrVertexBytes + std::uint64_t{field(kMrrFacesAt)} * kMrrFaceBytes +
-                      field(kMrrDescriptionAt);
-        if (base_bytes_ > left()) {
-            return error_at(Cause::kTruncatedInput, at_,
-                            "base mesh and description take " + std::to_string(base_bytes_) + " bytes; the file has " +
-                                std::to_string(left()) + " more");
-        }
-        const std::uint64_t corners = 3 * (field(kMrrFacesAt) + 2 * std::uint64_t{field(kMrrSplitsAt)});
-        if (corners >= std::numeric_limits<std::uint32_t>::max())
-            return error_at(Cause::kCorrupt, kMrrSplitsAt, "the finest level would have more corners than 32 bits can number");
-        if (field(kMrrSplitsAt) <= field(kMrrRecordsAt)) return Done{};
-        return error_at(
-            Cause::kCorrupt, kMrrSplitsAt,
-            std::to_string(field(kMrrSplitsAt)) + " splits among " + std::to_string(field(kMrrRecordsAt)) + " records");
+        return base;
     }
 
     Status read_base() {
-        if (crc32c(bytes_.subspan(at_, base_bytes_)) != field(kMrrBaseCrcAt)) {
-            return error_at(Cause::kCorrupt, at_, "the checksum of base mesh and description does not fit them");
-        }
         TriangleMesh& base = stored_.mrr.base;
-        base.positions.resize(field(kMrrVerticesAt));
-        for (Vec3& position : base.positions) {
-            for (int axis = 0; axis < 3; ++axis) position[axis] = take<double>();
+        if (layout_.packed) {
+            Expected<TriangleMesh> unpacked =
+                unpack_base({layout_.base, layout_.vertices, layout_.faces, layout_.ghosts}, layout_.grid);
+            if (!unpacked) return error_at(Cause::kCorrupt, layout_.base_at, unpacked.error().message);
+            base = *std::move(unpacked);
+        } else {
+            base = plain_base();
         }
-        base.faces.resize(field(kMrrFacesAt));
-        for (Triangle& face : base.faces) {
-            for (std::uint32_t& vertex : face) vertex = take<std::uint32_t>();
-        }
-        const std::span<const std::byte> text = bytes_.subspan(at_, field(kMrrDescriptionAt));
-        stored_.description.assign(reinterpret_cast<const char*>(text.data()), text.size());
-        at_ += text.size();
-        stored_.faces = field(kMrrShownAt);
-
-        Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(base, field(kMrrGhostsAt));
-        if (!mesh) return error_at(Cause::kCorrupt, kMrrHeaderBytes, "the base mesh: " + mesh.error().message);
+        Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(base, layout_.ghosts);
+        if (!mesh) return error_at(Cause::kCorrupt, layout_.base_at, "the base mesh: " + mesh.error().message);
         mesh_ = *std::move(mesh);
-        stored_.mrr.ghosts = field(kMrrGhostsAt);
-        stored_.mrr.ghost_faces = count_ghost_faces(base, stored_.mrr.ghosts);
+        stored_.mrr.ghosts = layout_.ghosts;
+        stored_.mrr.ghost_faces = count_ghost_faces(base, layout_.ghosts);
+        note_deviation(layout_.base_deviation);
         return Done{};
     }
 
-    [[nodiscard]] RecordList& records() { return stored_.mrr.records; }
-
     Status read_blocks() {
-        while (records().size() < field(kMrrRecordsAt)) {
-            if (const Status status = read_block(); !status) return status.error();
+        for (const MrrBlockPlace& place : layout_.blocks) {
+            const RecordBlock block{place.first, place.count, place.encoding,
+                                    std::string(reinterpret_cast<const char*>(place.payload.data()), place.payload.size()),
+                                    place.crc32c};
+            if (const Status decoded = codec_.decode(block, *mesh_, &records()); !decoded)
+                return error_at(Cause::kCorrupt, place.at, decoded.error().message);
+            if (const Status valid = check_block_end(place); !valid) return valid.error();
         }
         return Done{};
+    }
+
+    /// That the mesh is now what the index says.
+    Status check_block_end(const MrrBlockPlace& place) {
+        if (mesh_->level() > layout_.splits) {
+            return error_at(Cause::kCorrupt, place.at,
+                            "a block brings more splits than the " + std::to_string(layout_.splits) + " announced");
+        }
+        stored_.mrr.border_splits = mesh_->border_splits();
+        const std::uint32_t faces = stored_.mrr.faces_at(mesh_->level());
+        if (place.splits.value_or(mesh_->level()) != mesh_->level() || place.faces.value_or(faces) != faces) {
+            return error_at(Cause::kCorrupt, place.at,
+                            "after the block from record " + std::to_string(place.first) + " on there are " +
+                                std::to_string(mesh_->level()) + " splits and " + std::to_string(faces) + " faces, not " +
+                                std::to_string(*place.splits) + " and " + std::to_string(*place.faces) + " as the index says");
+        }
+        if (!std::isnan(place.deviation) && records().kinds().back() != RecordKind::kSplit) {
+            return error_at(Cause::kCorrupt, place.at,
+                            "a deviation is given after the block from record " + std::to_string(place.first) +
+                                " on, which does not end with a split");
+        }
+        note_deviation(place.deviation);
+        return Done{};
+    }
+
+    void note_deviation(double most) {
+        if (!std::isnan(most)) stored_.deviations.push_back({static_cast<std::uint32_t>(mesh_->level()), most});
     }
 
     Status check_end() {
         const std::string all = std::to_string(records().size()) + " records";
-        if (mesh_->level() != field(kMrrSplitsAt)) {
-            return error_at(
-                Cause::kCorrupt, kMrrSplitsAt,
-                std::to_string(mesh_->level()) + " of " + all + " are splits, not " + std::to_string(field(kMrrSplitsAt)));
+        if (mesh_->level() != layout_.splits) {
+            return error_at(Cause::kCorrupt, kMrrSplitsAt,
+                            std::to_string(mesh_->level()) + " of " + all + " are splits, not " + std::to_string(layout_.splits));
         }
         if (!records().empty() && records().kinds().back() != RecordKind::kSplit) {
-            return error_at(Cause::kCorrupt, bytes_.size(), "the last of " + all + " is no split; edits stand before a split");
+            return error_at(Cause::kCorrupt, layout_.regions_at,
+                            "the last of " + all + " is no split; edits stand before a split");
         }
-        stored_.mrr.border_splits = mesh_->border_splits();
-        return left() == 0 ? Status(Done{}) : decode_regions(bytes_.subspan(at_), at_, stored_.mrr);
+        if (layout_.regions.empty()) return Done{};
+        return decode_regions(layout_.regions, layout_.regions_at, stored_.mrr);
     }
 
-    Status read_block() {
-        const std::size_t block_at = at_;
-        const auto read = static_cast<std::uint32_t>(records().size());
-        const std::uint32_t due = field(kMrrRecordsAt) - read;
-        if (left() < kMrrBlockHeaderBytes) return truncated();
-        RecordBlock block;
-        block.first = take<std::uint32_t>();
-        block.count = take<std::uint32_t>();
-        block.encoding = RecordEncoding{take<std::uint32_t>()};
-        const auto payload_bytes = take<std::uint32_t>();
-        block.crc32c = take<std::uint32_t>();
-        if (block.first != read || block.count == 0 || block.count > due) {
-            return error_at(Cause::kCorrupt, block_at,
-                            "a block has records " + std::to_string(block.first) + " and on, " + std::to_string(block.count) +
-                                " in all, where up to " + std::to_string(due) + " from " + std::to_string(read) + " on are due");
-        }
-        if (payload_bytes > left()) return truncated();
-        block.payload.assign(reinterpret_cast<const char*>(bytes_.data() + at_), payload_bytes);
-        at_ += payload_bytes;
-        return accept(block, block_at);
+    Status check_box() {
+        if (!layout_.box) return Done{};
+        const BoundingBox box = box_of_all(stored_.mrr);
+        if (box.min == layout_.box->min && box.max == layout_.box->max) return Done{};
+        return error_at(Cause::kCorrupt, kMrr2BoxAt, "the bounding box is not that of the positions");
     }
 
-    Status accept(const RecordBlock& block, std::size_t block_at) {
-        const Expected<RecordList> decoded = decode_block(block);
-        if (!decoded) return error_at(Cause::kCorrupt, block_at, decoded.error().message);
-        if (decoded->splits().size() > field(kMrrSplitsAt) - mesh_->level()) {
-            return error_at(Cause::kCorrupt, block_at,
-                            "a block brings more splits than the " + std::to_string(field(kMrrSplitsAt)) + " announced");
-        }
-        if (const Status fits = mesh_->refine(*decoded); !fits) return error_at(Cause::kCorrupt, block_at, fits.error().message);
-        records().append(*decoded);
-        return Done{};
-    }
-
-    [[nodiscard]] Status truncated() {
-        return error_at(Cause::kTruncatedInput, bytes_.size(),
-                        "the file ends after " + std::to_string(records().size()) + " of " +
-                            std::to_string(field(kMrrRecordsAt)) + " records");
-    }
-
-    /// \pre sizeof(T) <= left().
-    template <class T>
-    T take() {
-        const T value = load<T>(bytes_.data() + at_);
-        at_ += sizeof(T);
-        return value;
-    }
-
-    std::span<const std::byte> bytes_;
-    std::size_t at_ = 0;
-    std::uint64_t base_bytes_ = 0;
+    MrrLayout layout_;
+    RecordCodec codec_;
     StoredMrr stored_;
     std::optional<ProgressiveMesh> mesh_;
 };
 
 }  // namespace
 
-Expected<StoredMrr> decode_mrr(std::span<const std::byte> bytes) { return MrrDecoder(bytes).decode(); }
+Expected<StoredMrr> decode_mrr(std::span<const std::byte> bytes) {
+    Expected<MrrLayout> layout = read_mrr_layout(bytes);
+    if (!layout) return layout.error();
+    return MrrDecoder(*std::move(layout)).decode();
+}
 
 }  // namespace vsplit

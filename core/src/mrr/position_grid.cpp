@@ -62,11 +62,7 @@ Expected<PositionGrid> PositionGrid::over(const MultiresMesh& mrr, const Encodin
     if (!checked) return checked.error();
     if (checked->encoding == RecordEncoding::kFloat64) return PositionGrid();
     if (checked->encoding == RecordEncoding::kFloat32) return float32();
-    BoundingBox box;
-    for_each_position(mrr, [&box](const Vec3& position) {
-        box.min = box.min.cwiseMin(position);
-        box.max = box.max.cwiseMax(position);
-    });
+    const BoundingBox box = box_of_all(mrr);
     const double side = (box.max - box.min).maxCoeff();
     const double step = side / static_cast<double>((std::uint64_t{1} << checked->bits) - 1);
     // All points are one, or so near each other that a double cannot divide the distance.
@@ -90,6 +86,15 @@ Vec3 PositionGrid::snap(const Vec3& position) const {
     return snapped;
 }
 
+BoundingBox box_of_all(const MultiresMesh& mrr) {
+    BoundingBox box;
+    for_each_position(mrr, [&box](const Vec3& position) {
+        box.min = box.min.cwiseMin(position);
+        box.max = box.max.cwiseMax(position);
+    });
+    return box;
+}
+
 RecordList on_grid(const RecordSpan& records, const PositionGrid& grid) {
     RecordList rounded;
     rounded.reserve(records.splits.size(), records.flips.size(), records.moves.size());
@@ -107,7 +112,8 @@ RecordList on_grid(const RecordSpan& records, const PositionGrid& grid) {
 }
 
 MultiresMesh on_grid(const MultiresMesh& mrr, const PositionGrid& grid) {
-    MultiresMesh result{mrr.base, on_grid(mrr.records, grid), mrr.ghosts, mrr.ghost_faces, mrr.border_splits};
+    MultiresMesh result{mrr.base, on_grid(mrr.records, grid), mrr.ghosts, mrr.ghost_faces, mrr.border_splits, mrr.regions,
+                        mrr.sets};
     for (Vec3& position : result.base.positions) position = grid.snap(position);
     return result;
 }

@@ -1,7 +1,9 @@
 #include "vsplit/mrr/record_block.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
+#include <utility>
 
 #include "base/byte_order.h"
 #include "mrr/block_checks.h"
@@ -114,13 +116,15 @@ std::size_t records_that_fit(const RecordSpan& records, RecordEncoding encoding)
     return records.size();
 }
 
-RecordBlock encode_block(const RecordSpan& records, std::uint32_t first, RecordEncoding encoding) {
+RecordBlock encode_block(const RecordSpan& records, std::uint32_t first, RecordEncoding encoding, std::string memory) {
     assert(records.consistent());
     assert(records_that_fit(records, encoding) == records.size());
     const Columns columns{records.splits.size(), records.flips.size(), records.moves.size()};
-    RecordBlock block{first, static_cast<std::uint32_t>(records.size()), encoding, std::string(columns.bytes(), '\0'), 0};
+    RecordBlock block{first, static_cast<std::uint32_t>(records.size()), encoding, std::move(memory), 0};
+    block.payload.resize(columns.bytes());
     char* const payload = block.payload.data();
     for (std::size_t n = 0; n < records.size(); ++n) payload[n] = static_cast<char>(records.kinds[n]);
+    std::fill(payload + records.size(), payload + columns.anchor(), '\0');
     for (std::size_t s = 0; s < records.splits.size(); ++s) {
         const VertexSplit& split = records.splits[s];
         store(payload + columns.anchor() + s * kIndexBytes, split.anchor);

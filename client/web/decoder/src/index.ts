@@ -4,4 +4,4 @@ export { crc32c } from "./crc32c.js";
 export { CorruptError } from "./errors.js";
 export { Encoding, float32Grid, float64Grid, type Grid } from "./grid.js";
 export { ProgressiveMesh } from "./mesh.js";
-export { isMrrFile, MrrFile, MrrFileError, type FileFault } from "./mrr_file.js";
+export { isMrrFile, MrrFile, MrrFileError, type BlockEntry, type FileFault } from "./mrr_file.js";

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
-import { CorruptError, float64Grid, isMrrFile, MrrFile, MrrFileError, ProgressiveMesh, RecordDecoder } from "../src/index.js";
+import { CorruptError, isMrrFile, MrrFile, MrrFileError, ProgressiveMesh, RecordDecoder } from "../src/index.js";
 
 // dist/test/ stands under client/web/decoder/.
 const data = new URL("../../../../../tests/data/", import.meta.url);
@@ -10,7 +10,7 @@ const bytesOf = (name: string): Uint8Array => new Uint8Array(readFileSync(new UR
 function load(bytes: Uint8Array): { file: MrrFile; mesh: ProgressiveMesh } {
   const file = new MrrFile(bytes);
   const mesh = new ProgressiveMesh(file.base.positions, file.base.corners, file.base.ghosts);
-  const decoder = new RecordDecoder(float64Grid);
+  const decoder = new RecordDecoder(file.grid);
   for (const block of file.blocks()) decoder.decode(block, mesh);
   file.checkLevel(mesh.level);
   return { file, mesh };
@@ -22,19 +22,46 @@ function finest(name: string): string {
   return last.split(" ").slice(1, 3).join(" ");
 }
 
-for (const name of ["closed", "open"]) {
-  test(`file_1_${name}.vsplit is read whole`, () => {
-    const bytes = bytesOf(`golden/file_1_${name}.vsplit`);
+/** The blocks, and the mesh after them, are what the index says. */
+function checkIndex(file: MrrFile): void {
+  const mesh = new ProgressiveMesh(file.base.positions, file.base.corners, file.base.ghosts);
+  const decoder = new RecordDecoder(file.grid);
+  let n = 0;
+  for (const block of file.blocks()) {
+    decoder.decode(block, mesh);
+    const entry = file.index[n++]!;
+    assert.deepEqual([entry.first, entry.count, entry.splits, entry.crc32c], [block.first, block.count, mesh.level, block.crc32c]);
+    if (file.base.ghosts === 0) assert.equal(entry.faces, mesh.faceCount);
+  }
+  assert.equal(n, file.index.length);
+}
+
+const golden = readdirSync(new URL("golden/", data)).filter((name) => /^file_\d_(.*_)?(closed|open)\.vsplit$/.test(name));
+
+test("golden files of every version and encoding are there", () => assert.equal(golden.length, 8));
+
+for (const name of golden) {
+  test(`${name} is read whole`, () => {
+    const bytes = bytesOf(`golden/${name}`);
+    const closed = name.includes("closed");
     assert.ok(isMrrFile(bytes));
     const { file, mesh } = load(bytes);
     assert.equal(mesh.records, file.records);
-    assert.equal(`${mesh.vertexCount} ${mesh.faceCount}`, finest(name));
+    assert.equal(`${mesh.vertexCount} ${mesh.faceCount}`, finest(closed ? "closed" : "open"));
     assert.ok(file.shown > 0);
-    assert.ok(name === "closed" ? file.base.ghosts === 0 : file.base.ghosts > 0);
+    assert.ok(closed ? file.base.ghosts === 0 : file.base.ghosts > 0);
+    if (name.startsWith("file_1_")) return;
+    assert.equal(file.unit, "mm");
+    assert.match(file.source!, /^010911.*f9$/);
+    assert.ok(file.baseDeviation >= 0.5 && file.baseDeviation < 0.51);
+    assert.equal(file.maxError > 0, !name.includes("float64"));
+    assert.equal(file.index.length, 3);
+    assert.ok(file.index[0]!.deviation >= 0.25 && Number.isNaN(file.index[1]!.deviation));
+    checkIndex(file);
   });
 
-  test(`file_1_${name}.vsplit: no byte can be changed, and none left out at the end or added`, () => {
-    const bytes = bytesOf(`golden/file_1_${name}.vsplit`);
+  test(`${name}: no byte can be changed, and none left out at the end or added`, () => {
+    const bytes = bytesOf(`golden/${name}`);
     const refused = (changed: Uint8Array, what: string): void =>
       assert.throws(() => load(changed), (error: Error) => error instanceof MrrFileError || error instanceof CorruptError, what);
     for (let at = 0; at < bytes.length; at += at < 100 ? 1 : 97) {
@@ -51,7 +78,7 @@ for (const name of ["closed", "open"]) {
 
 /** As tests/core/mrr_file_test.cpp has them. */
 const broken: Record<string, [fault: string, place: string]> = {
-  "mrr_of_version_2.vsplit": ["UNSUPPORTED", "byte 8"],
+  "mrr_of_version_3.vsplit": ["UNSUPPORTED", "byte 8"],
   "mrr_cut_in_header.vsplit": ["TRUNCATED_INPUT", "byte 30"],
   "mrr_cut_in_block.vsplit": ["TRUNCATED_INPUT", "byte 330: the file ends after 0 of 4 records"],
   "mrr_changed_header.vsplit": ["CORRUPT", "byte 44"],

@@ -1,4 +1,4 @@
-import { CorruptError, float64Grid, MrrFile, MrrFileError } from "../../decoder/src/index";
+import { CorruptError, MrrFile, MrrFileError } from "../../decoder/src/index";
 import { Problem } from "../shared/problem";
 import type { Point } from "../shared/protocol";
 import { HeldMesh } from "./held_mesh";
@@ -10,7 +10,7 @@ const turn = 60;
 export async function readMrr(file: Blob, read: (share: number) => Promise<void>): Promise<{ held: HeldMesh; description: unknown }> {
   try {
     const source = new MrrFile(new Uint8Array(await file.arrayBuffer()));
-    const held = new HeldMesh(source.base, float64Grid);
+    const held = new HeldMesh(source.base, source.grid);
     let due = performance.now() + turn;
     for (const block of source.blocks()) {
       held.take(block);

@@ -85,4 +85,7 @@ void for_each_position(const MultiresMesh& mrr, Visit visit) {
     for (const VertexMove& move : mrr.records.moves()) visit(move.position);
 }
 
+/// The box around all of those. O(records).
+[[nodiscard]] BoundingBox box_of_all(const MultiresMesh& mrr);
+
 }  // namespace vsplit

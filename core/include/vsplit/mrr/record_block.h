@@ -32,8 +32,10 @@ inline constexpr std::size_t kMaxBlockBytes = std::size_t{256} * 1024;
 /// \pre encoding is kFloat64, the only one that needs no mesh: for any other see RecordCodec.
 [[nodiscard]] std::size_t records_that_fit(const RecordSpan& records, RecordEncoding encoding);
 
-/// \pre records.consistent(), and records_that_fit(records, encoding) is records.size(). O(records).
-[[nodiscard]] RecordBlock encode_block(const RecordSpan& records, std::uint32_t first, RecordEncoding encoding);
+/// \pre records.consistent(), and records_that_fit(records, encoding) is records.size(). O(records). `memory` may be the payload
+/// of a block that is over: its memory is used again.
+[[nodiscard]] RecordBlock encode_block(const RecordSpan& records, std::uint32_t first, RecordEncoding encoding,
+                                       std::string memory = {});
 
 /// Of the encoding kFloat64. \return CORRUPT naming the block by its first record, when the checksum, the size, a kind or the
 /// encoding does not fit. Whether the records fit a mesh is for ProgressiveMesh::refine to say. O(records).

@@ -36,13 +36,23 @@ struct ConnectOptions {
     std::string traceparent{};  ///< goes with every call, as W3C's Trace Context has it; empty: none
 };
 
+/// What happens when a server cannot be reached (UNAVAILABLE): one that starts again is waited for.
+struct RetryOptions {
+    int attempts = 5;                          ///< tries in a row that bring nothing before the error is given up to; >= 1
+    std::chrono::milliseconds first_wait{20};  ///< before the second try; each further wait is twice as long
+    std::chrono::milliseconds longest_wait{2000};
+};
+
 /// What every call takes.
 struct CallOptions {
-    /// Longest the whole call may take (DEADLINE_EXCEEDED beyond); empty: as long as it needs.
+    /// Longest the whole call may take, retries included (DEADLINE_EXCEEDED beyond); empty: as long as it needs.
     std::optional<std::chrono::milliseconds> deadline;
 
     /// `std::stop_source::request_stop()` on any thread cancels the call: it returns CANCELLED, and the server stops working.
     std::stop_token stop;
+
+    /// Of calls that are safe to make twice: those that only read, KeepAlive and DeleteSession. Others are made once.
+    RetryOptions retry{};
 };
 
 /// How an upload is to be read by the server.
@@ -56,10 +66,11 @@ struct UploadOptions {
 
 /// What a stream begins with.
 struct StreamBase {
-    TriangleMesh mesh;         ///< the coarsest, its positions on `grid`
-    std::uint32_t ghosts = 0;  ///< how many of its first vertices close boundaries; see MultiresMesh
-    PositionGrid grid;         ///< the positions that the stream's encoding can hold
-    double max_error = 0;      ///< no coordinate of the stream differs from the exact one by more; model units
+    TriangleMesh mesh;               ///< the coarsest, its positions on `grid`
+    std::uint32_t ghosts = 0;        ///< how many of its first vertices close boundaries; see MultiresMesh
+    PositionGrid grid;               ///< the positions that the stream's encoding can hold
+    double max_error = 0;            ///< no coordinate of the stream differs from the exact one by more; model units
+    std::uint32_t first_record = 0;  ///< 0, or of a keyframe, a mesh of a finer level: the first record that it has not in it
 };
 
 /// Who hears of a stream's events, on the thread that made the call. Empty handlers are skipped. A handler that returns an error

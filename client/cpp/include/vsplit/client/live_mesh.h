@@ -14,11 +14,7 @@
 namespace vsplit::client {
 
 /// How a stream that breaks off is taken up again.
-struct ResumeOptions {
-    int attempts = 5;                          ///< tries in a row that bring nothing before the error is given up to; >= 1
-    std::chrono::milliseconds first_wait{20};  ///< before the second try; each further wait is twice as long
-    std::chrono::milliseconds longest_wait{2000};
-};
+using ResumeOptions = RetryOptions;
 
 /// Brings `receiver` to the resolution nearest to `faces`: without the server where it holds that already, else by SetResolution
 /// from what it holds on. Where the connection breaks (UNAVAILABLE) the stream goes on at the first record still missing, on a
@@ -29,6 +25,9 @@ struct ResolutionTarget {
     std::string representation;  ///< as the id that Improve or Control gave
     std::uint32_t faces = 0;
     EncodingChoice encoding;  ///< of a receiver that holds nothing; one that does goes on in its own
+    /// kFloat64: a far jump may bring the mesh it leads to in place of the records between, where that is less to send. What was
+    /// held before is kept; the levels between come when they are asked for.
+    bool keyframes = false;
 };
 [[nodiscard]] Expected<std::uint32_t> move_to(MeshingClient& client, const ResolutionTarget& target, MeshReceiver& receiver,
                                               const ResumeOptions& resume = {}, const CallOptions& call = {});

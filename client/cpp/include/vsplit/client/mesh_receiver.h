@@ -20,7 +20,7 @@ namespace vsplit::client {
 ///     if (Status shown = receiver.show(2000); shown) use(receiver.mesh());   // coarser: needs no server
 ///
 /// Everything that comes is checked by ProgressiveMesh before it is kept. Not thread-safe. Memory: that of ProgressiveMesh and
-/// of RecordList; once more the mesh shown where it has open boundaries or regions.
+/// of RecordList, of what was held before a keyframe too; once more the mesh shown where it has open boundaries or regions.
 class MeshReceiver {
 public:
     /// `max_faces`: LIMIT_EXCEEDED when a stream builds more.
@@ -29,7 +29,7 @@ public:
     /// Handlers that feed this object, which must outlive them.
     [[nodiscard]] EventHandlers handlers(std::function<void(const v1::Progress&)> on_progress = {});
 
-    /// Starts anew with a stream's base mesh. \return what the next returns.
+    /// Starts anew with a stream's base mesh; with a keyframe what is held is put by. \return what the next returns.
     [[nodiscard]] Status begin(StreamBase base);
 
     /// The same with one of FLOAT64. \return what ProgressiveMesh::from_base returns, LIMIT_EXCEEDED.
@@ -56,7 +56,14 @@ public:
     [[nodiscard]] std::uint32_t faces_held() const { return has_mesh() ? held_.faces_max() : 0; }
 
     /// Number of records held: SetResolutionRequest.resume_from, to go on where a stream broke off.
-    [[nodiscard]] std::uint32_t records_held() const { return static_cast<std::uint32_t>(held_.records.size()); }
+    [[nodiscard]] std::uint32_t records_held() const { return first_record_ + static_cast<std::uint32_t>(held_.records.size()); }
+
+    /// Whether what is held begins with a keyframe, a mesh of a finer level, so that `held().faces_min()` is the coarsest there
+    /// is.
+    [[nodiscard]] bool on_keyframe() const { return first_record_ != 0; }
+
+    /// Gives up the keyframe and all that came after it: held is what was before, which may be nothing. \pre on_keyframe().
+    void leave_keyframe();
 
     /// The mesh shown, without ghosts. \pre has_mesh(). The reference stays valid until begin() or the object's end; its content
     /// is that of the last call. O(1), O(faces) after a change where there are open boundaries.
@@ -68,7 +75,7 @@ public:
     /// No coordinate differs from the exact one by more; model units.
     [[nodiscard]] double max_error() const { return max_error_; }
 
-    /// All that has come.
+    /// All that has come; after a keyframe, that and what came after.
     [[nodiscard]] const MultiresMesh& held() const { return held_; }
 
 private:
@@ -80,6 +87,13 @@ private:
     double max_error_ = 0;
     MultiresMesh held_;
     std::optional<ProgressiveMesh> progressive_;
+    std::uint32_t first_record_ = 0;  // the first of held_.records; not 0 after a keyframe
+    /// What was held before a keyframe.
+    struct Before {
+        MultiresMesh held;
+        std::optional<ProgressiveMesh> progressive;
+    };
+    Before before_;
     mutable std::optional<std::size_t> visible_records_;  // what visible_ shows; only with ghosts or regions
     mutable TriangleMesh visible_;
 };

@@ -25,7 +25,8 @@ namespace vsplit::client {
 ///
 /// All members but the move and the destructor may be called from several threads at once; each call blocks its thread until it
 /// is over. Arguments are used during the call only. Errors are those of the server, cause, field and message restored, or
-/// UNAVAILABLE, CANCELLED, DEADLINE_EXCEEDED. A moved-from client may only be destroyed or assigned to.
+/// UNAVAILABLE, CANCELLED, DEADLINE_EXCEEDED. Calls that are safe to make again are, while the server cannot be reached
+/// (CallOptions::retry). A moved-from client may only be destroyed or assigned to.
 /// \pre the client outlives the calls made through it.
 class MeshingClient {
 public:
@@ -59,6 +60,7 @@ public:
 
     /// Puts off when the session expires.
     [[nodiscard]] Expected<v1::Session> keep_alive(const std::string& session, const CallOptions& call = {});
+    /// NOT_FOUND where a try that was not answered has deleted it: it is gone.
     [[nodiscard]] Status delete_session(const std::string& session, const CallOptions& call = {});
 
     [[nodiscard]] Expected<v1::Representation> improve(const v1::ImproveRequest& request, const EventHandlers& handlers = {},
