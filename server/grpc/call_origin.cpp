@@ -24,7 +24,14 @@ std::string address_of(const std::string& peer) {
     const std::size_t first = peer.find(':');
     const std::size_t last = peer.rfind(':');
     if (first == std::string::npos || last <= first) return peer;
-    return peer.substr(first + 1, last - first - 1);
+    // [::1] comes as %5B::1%5D; HTTP's door knows the same client as ::1.
+    constexpr std::string_view kOpen = "%5B", kClose = "%5D";
+    std::string_view address = std::string_view(peer).substr(first + 1, last - first - 1);
+    if (address.starts_with(kOpen) && address.ends_with(kClose)) {
+        address.remove_prefix(kOpen.size());
+        address.remove_suffix(kClose.size());
+    }
+    return std::string(address);
 }
 
 CallOrigin origin_of(const HeaderLookup& header, const std::string& peer) {

@@ -65,9 +65,10 @@ Expected<std::shared_ptr<TlsBook>> TlsBook::open(const TlsFiles& files, ReloadOb
 std::shared_ptr<const TlsSet> TlsBook::current() {
     const std::lock_guard lock(mutex_);
     if (!watched_.changed()) return set_;
-    Expected<Set> read_anew = read(files_);
-    if (observer_) observer_(files_.cert, read_anew ? Status(Done{}) : Status(read_anew.error()));
-    if (read_anew) set_ = *std::move(read_anew);
+    Expected<Set> set = read(files_);
+    const Status read_anew = set ? Status(Done{}) : Status(set.error());
+    if (watched_.note(read_anew) && observer_) observer_(files_.cert, read_anew);
+    if (set) set_ = *std::move(set);
     return set_;
 }
 

@@ -28,7 +28,8 @@ std::shared_ptr<const TokenBook::Tokens> TokenBook::current() {
     const std::lock_guard lock(mutex_);
     if (!watched_.changed()) return tokens_;
     Expected<Tokens> tokens = read(file_);
-    if (observer_) observer_(file_, tokens ? Status(Done{}) : Status(tokens.error()));
+    const Status read_anew = tokens ? Status(Done{}) : Status(tokens.error());
+    if (watched_.note(read_anew) && observer_) observer_(file_, read_anew);
     if (tokens) tokens_ = std::make_shared<const Tokens>(*std::move(tokens));
     return tokens_;
 }

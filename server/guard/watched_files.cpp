@@ -18,9 +18,14 @@ bool WatchedFiles::changed() {
     if (Clock::now() - looked_ < pause_) return false;
     looked_ = Clock::now();
     Marks now = look();
-    if (now == seen_) return false;
+    if (now == seen_ && failure_.empty()) return false;
     seen_ = std::move(now);
     return true;
+}
+
+bool WatchedFiles::note(const Status& read) {
+    const std::string before = std::exchange(failure_, read ? "" : read.error().message);
+    return read.has_value() || failure_ != before;
 }
 
 WatchedFiles::Marks WatchedFiles::look() const {
@@ -28,7 +33,8 @@ WatchedFiles::Marks WatchedFiles::look() const {
     for (const std::string& name : names_) {
         struct stat is {};
         if (name.empty() || stat(name.c_str(), &is) != 0) is = {};
-        marks.insert(marks.end(), {is.st_mtim.tv_sec, is.st_mtim.tv_nsec, is.st_size, static_cast<std::int64_t>(is.st_ino)});
+        marks.insert(marks.end(), {is.st_mtim.tv_sec, is.st_mtim.tv_nsec, is.st_ctim.tv_sec, is.st_ctim.tv_nsec, is.st_size,
+                                   static_cast<std::int64_t>(is.st_ino)});
     }
     return marks;
 }

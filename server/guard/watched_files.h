@@ -9,7 +9,7 @@
 
 namespace vsplit::guard {
 
-/// Notices when files were written anew or replaced, by their time, size and inode. Not thread-safe.
+/// Notices when files were written anew or replaced, by their times, size and inode. Not thread-safe.
 class WatchedFiles {
 public:
     /// \param pause files are looked at no more often
@@ -17,6 +17,10 @@ public:
 
     /// Whether any is another than at the last call that said so, or at construction.
     [[nodiscard]] bool changed();
+
+    /// What came of reading them. Where they could not be used `changed` asks for it again after a pause, whatever is seen of
+    /// them. \return whether that is news.
+    [[nodiscard]] bool note(const Status& read);
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -27,6 +31,7 @@ private:
     const std::vector<std::string> names_;
     const std::chrono::milliseconds pause_;
     Marks seen_;
+    std::string failure_;  // of the last reading; empty: none
     Clock::time_point looked_ = Clock::now();
 };
 

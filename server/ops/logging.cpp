@@ -174,20 +174,14 @@ void log_rpc(const rpc::RpcRecord& record) {
 void log_http(const rest::HttpRecord& record) {
     if (!spdlog::should_log(Level::info)) return;
     const double ms = milliseconds(record.elapsed);
-    const std::string target = service::quoted(record.target);
     if (options().json) {
-        Json json{{"event", "http"},
-                  {"method", service::quoted(record.method)},
-                  {"target", target},
-                  {"status", record.status},
-                  {"ms", ms},
-                  {"bytes_in", record.bytes_in},
-                  {"bytes_out", record.bytes_out}};
+        Json json{{"event", "http"}, {"method", record.method},     {"target", record.target},      {"status", record.status},
+                  {"ms", ms},        {"bytes_in", record.bytes_in}, {"bytes_out", record.bytes_out}};
         add_origin(json, record.mark.id, record.mark.trace, record.mark.parent_span, record.mark.peer);
         return write(Level::info, json);
     }
-    spdlog::info("http {} {} {} {:.1f} ms in {} out {} request {}", service::quoted(record.method), target, record.status, ms,
-                 record.bytes_in, record.bytes_out, record.mark.id);
+    spdlog::info("http {} {} {} {:.1f} ms in {} out {} request {}", service::quoted(record.method),
+                 service::quoted(record.target), record.status, ms, record.bytes_in, record.bytes_out, record.mark.id);
 }
 
 void log_job(const service::JobRecord& record) {

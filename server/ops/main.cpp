@@ -1,6 +1,7 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <chrono>
@@ -37,8 +38,9 @@
 namespace vsplit::ops {
 namespace {
 
-// For the last bytes of answers to reach clients that read them.
+// For the last bytes of answers to reach clients that read them, and for methods that are cut off to notice.
 constexpr std::chrono::seconds kFlushTime{1};
+constexpr std::chrono::seconds kCutOffTime{5};
 
 constexpr std::chrono::seconds kTrimPause{5};
 
@@ -78,7 +80,8 @@ void take_all_descriptors() {
 void block_stop_signals() {
     const sigset_t signals = stop_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
+    // SIGHUP: files that may change are watched, so there is nothing to read again.
+    for (const int ignored : {SIGPIPE, SIGHUP}) static_cast<void>(std::signal(ignored, SIG_IGN));
 }
 
 int wait_for_stop_signal() {
@@ -99,16 +102,20 @@ struct Guard {
     std::unique_ptr<guard::Gatekeeper> gate;
 };
 
-Expected<Guard> make_guard(const ServerOptions& options) {
+Expected<Guard> make_guard(const ServerOptions& options, Metrics& metrics) {
+    const guard::ReloadObserver on_read = [&metrics](const std::string& file, const Status& read) {
+        log_reload(file, read);
+        metrics.file_read(file, read.has_value());
+    };
     Guard made;
     if (!options.tls.cert.empty()) {
-        Expected<std::shared_ptr<guard::TlsBook>> tls = guard::TlsBook::open(options.tls, log_reload);
+        Expected<std::shared_ptr<guard::TlsBook>> tls = guard::TlsBook::open(options.tls, on_read);
         if (!tls) return tls.error();
         made.tls = *std::move(tls);
     }
     std::unique_ptr<guard::TokenBook> tokens;
     if (!options.token_file.empty()) {
-        Expected<std::unique_ptr<guard::TokenBook>> opened = guard::TokenBook::open(options.token_file, log_reload);
+        Expected<std::unique_ptr<guard::TokenBook>> opened = guard::TokenBook::open(options.token_file, on_read);
         if (!opened) return opened.error();
         tokens = *std::move(opened);
     }
@@ -172,7 +179,7 @@ void drain(rpc::GrpcServer& server, rest::RestServer* rest, service::MeshingServ
         spdlog::warn("cut off what was not done after {} s", grace.count());
         // Before the connections are: clients are told why, and what they asked for is known after the next start.
         service.end_sessions();
-        server.drain(kFlushTime);
+        server.drain(kCutOffTime);
     }
     if (rest != nullptr) rest->shutdown(kFlushTime);
     server.shutdown(std::chrono::milliseconds(0));
@@ -199,9 +206,9 @@ Status check_message_memory(const ServerOptions& options) {
 
 int serve(const ServerOptions& options, const ListenAddress& address, const std::optional<ListenAddress>& http) {
     if (Status room = check_message_memory(options); !room) return fail(options, room.error().message);
-    const Expected<Guard> guard = make_guard(options);
-    if (!guard) return fail(options, guard.error().message);
     Metrics metrics;
+    const Expected<Guard> guard = make_guard(options, metrics);
+    if (!guard) return fail(options, guard.error().message);
     service::ServiceOptions service_options = options.service;
     service_options.job_observer = [&metrics](const service::JobRecord& record) {
         metrics.job_ended(record);
@@ -225,6 +232,9 @@ int serve(const ServerOptions& options, const ListenAddress& address, const std:
     const std::string scheme = guard->tls == nullptr ? "http://" : "https://";
     if (*rest) std::cout << " and " << scheme << http->text(std::to_string((*rest)->port()));
     std::cout << std::endl;
+    spdlog::info("vsplitd {} serves {} sessions{}; TLS {}, tokens {}", VSPLIT_VERSION, service.load().sessions,
+                 options.data_dir.empty() ? "" : " of " + options.data_dir, guard->tls ? "on" : "off",
+                 options.token_file.empty() ? "off" : "on");
     const service::Sweeper trimmer(kTrimPause, return_free_memory);
     const int signal = wait_for_stop_signal();
     spdlog::info("signal {}: draining for at most {} s; a second signal ends it at once", signal, options.drain);
@@ -273,6 +283,7 @@ int run(int argc, const char* const* argv) {
         const Status serves = check_server(*address, options.tls);
         return serves ? 0 : fail(options, serves.error().message);
     }
+    umask(S_IRWXG | S_IRWXO);  // what it writes is for its own user
     block_stop_signals();
     return_large_memory();
     take_all_descriptors();

@@ -1,10 +1,12 @@
 #include "ops/metrics.h"
 
+#include <google/protobuf/descriptor.h>
 #include <prometheus/text_serializer.h>
 
 #include <array>
 
 #include "ops/process_use.h"
+#include "vsplit/v1/meshing.grpc.pb.h"
 
 namespace vsplit::ops {
 namespace {
@@ -62,18 +64,36 @@ Metrics::Metrics()
       disk_(gauge(registry_, "vsplit_disk_bytes", "Meshes and representations in the data directory")),
       disk_limit_(gauge(registry_, "vsplit_disk_limit_bytes", "What they may take together, --max-disk-bytes; 0: no limit")),
       set_aside_(gauge(registry_, "vsplit_sessions_set_aside", "Sessions in the data directory that are damaged and not served")),
-      refuses_writes_(gauge(registry_, "vsplit_data_dir_refuses_writes",
-                            "1 while nothing can be written to the data directory: it is full or read-only; looked at every ten seconds")),
+      refuses_writes_(
+          gauge(registry_, "vsplit_data_dir_refuses_writes",
+                "1 while nothing can be written to the data directory: it is full or read-only; looked at every ten seconds")),
+      files_unusable_(
+          gauge(registry_, "vsplit_files_unusable",
+                "Files of certificates and tokens that were changed and cannot be used; what they said before holds")),
       resident_(gauge(registry_, "process_resident_memory_bytes", "Memory of the process that is in RAM")),
       descriptors_(gauge(registry_, "process_open_fds", "Open file descriptors")),
       most_descriptors_(gauge(registry_, "process_max_fds", "Most open file descriptors")),
       started_(gauge(registry_, "process_start_time_seconds", "When the process began, seconds since 1970")) {
     started_.SetToCurrentTime();
+    prometheus::BuildGauge()
+        .Name("vsplit_build_info")
+        .Help("1, with the version")
+        .Register(registry_)
+        .Add({{"version", VSPLIT_VERSION}})
+        .Set(1);
     // A label's values are known from the first scrape on: a rate over a counter that appears late misses its first step.
     for (const char* method : {"Improve", "Control", "RemoveFeatures"}) {
         jobs_.Add({{"method", method}, {"outcome", "OK"}});
         job_faces_.Add({{"method", method}});
     }
+    const auto* contract =
+        google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(v1::Meshing::service_full_name());
+    for (int i = 0; i < contract->method_count(); ++i) {
+        for (const char* code : {"INTERNAL", "UNKNOWN", "DATA_LOSS"}) {
+            rpcs_.Add({{"method", contract->method(i)->name()}, {"code", code}});
+        }
+    }
+    requests_.Add({{"status", "401"}});
 }
 
 void Metrics::rpc_began(std::string_view /*method*/) { running_.Increment(); }
@@ -104,6 +124,16 @@ void Metrics::job_ended(const service::JobRecord& record) {
     job_seconds_.Add({{"method", method}}, kSeconds).Observe(record.seconds);
     job_waited_.Add({{"method", method}}, kSeconds).Observe(record.waited);
     if (!record.outcome) job_faces_.Add({{"method", method}}).Increment(record.faces_in);
+}
+
+void Metrics::file_read(const std::string& file, bool usable) {
+    const std::lock_guard lock(reading_);
+    if (usable) {
+        unusable_.erase(file);
+    } else {
+        unusable_.insert(file);
+    }
+    files_unusable_.Set(static_cast<double>(unusable_.size()));
 }
 
 std::string Metrics::text(const service::ServiceLoad& load) {

@@ -25,7 +25,8 @@ namespace vsplit::ops {
 /// (bodies, by direction) are HTTP's own, vsplit_connections_refused_total is of gRPC connections. vsplit_jobs_total (by method
 /// and outcome), vsplit_job_seconds, vsplit_job_wait_seconds and vsplit_job_faces_total (by method) are of methods that a worker
 /// was at. vsplit_memory_bytes and vsplit_evictions_total are of the budget of memory, vsplit_disk_bytes and
-/// vsplit_sessions_set_aside and vsplit_data_dir_refuses_writes of the data directory. process_* are those that Prometheus' clients have.
+/// vsplit_sessions_set_aside and vsplit_data_dir_refuses_writes of the data directory, vsplit_files_unusable of
+/// certificates and tokens. process_* are those that Prometheus' clients have.
 class Metrics final : public rpc::RpcMeter {
 public:
     Metrics();
@@ -37,6 +38,8 @@ public:
     void http_ended(const rest::HttpRecord& record);
     void connection_refused();
     void job_ended(const service::JobRecord& record);
+    /// A file that is watched was read anew, or could not be used.
+    void file_read(const std::string& file, bool usable);
 
     /// Everything in Prometheus' text format, with the load of this moment.
     [[nodiscard]] std::string text(const service::ServiceLoad& load);
@@ -67,6 +70,9 @@ private:
     prometheus::Gauge& disk_limit_;
     prometheus::Gauge& set_aside_;
     prometheus::Gauge& refuses_writes_;
+    prometheus::Gauge& files_unusable_;
+    std::mutex reading_;
+    std::set<std::string> unusable_;  // files
     prometheus::Gauge& resident_;
     prometheus::Gauge& descriptors_;
     prometheus::Gauge& most_descriptors_;

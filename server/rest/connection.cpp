@@ -116,7 +116,7 @@ Awaitable<void> Connection::run() {
         stream_.close();
         co_return;
     }
-    for (std::size_t served = 1; !draining_; ++served) {
+    for (std::size_t served = 1; served == 1 || !draining_; ++served) {
         if (!co_await wait_for_request()) break;
         idle_ = false;
         if (!co_await serve_one(served >= gateway_.limits().requests)) break;

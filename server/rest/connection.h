@@ -40,6 +40,9 @@ public:
     /// No request after the one that is being answered. Any thread.
     void drain();
 
+    /// No request after the first. Before `run`.
+    void serve_one_only() { draining_ = true; }
+
     /// Ends it as it stands. Any thread.
     void close();
 

@@ -45,12 +45,8 @@ public:
 
     [[nodiscard]] int port() const { return port_; }
 
+    /// Whoever connects from now on gets one answer: balancers and scrapers do so to learn how it stands.
     void drain() {
-        net::post(acceptor_.get_executor(), [this] {
-            ErrorCode ignored;
-            acceptor_.close(ignored);
-            pause_.cancel();
-        });
         const std::lock_guard lock(mutex_);
         draining_ = true;
         for (const auto& connection : connections_) connection->drain();
@@ -58,6 +54,11 @@ public:
 
     void shutdown(std::chrono::milliseconds grace) {
         if (threads_.empty()) return;
+        net::post(acceptor_.get_executor(), [this] {
+            ErrorCode ignored;
+            acceptor_.close(ignored);
+            pause_.cancel();
+        });
         drain();
         std::unique_lock lock(mutex_);
         if (!empty_.wait_for(lock, grace, [this] { return connections_.empty() && !accepting_; })) {
@@ -98,7 +99,7 @@ private:
             const std::lock_guard lock(mutex_);
             room = connections_.size() < gateway_->limits().connections;
             connections_.insert(connection);
-            if (draining_) connection->drain();
+            if (draining_) connection->serve_one_only();
         }
         if (!room && on_refused_) on_refused_();
         net::co_spawn(executor, room ? connection->run() : connection->refuse(),

@@ -36,6 +36,7 @@ struct SessionRecord {
 
 /// A session that is damaged: it is kept and not served.
 struct DamagedSession {
+    std::uint64_t number = 0;  ///< as in SessionRecord
     std::string id;
     std::string owner;
     std::string why;

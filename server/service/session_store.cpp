@@ -82,12 +82,32 @@ Status SessionStore::require_room_locked(std::string_view owner) const {
 
 /// Why nothing is served under that id. Lock held.
 Error SessionStore::not_served(std::string_view id, std::string_view owner) const {
-    const auto damaged = damaged_.find(std::string(id));
-    if (damaged == damaged_.end() || damaged->second.owner != owner) return unknown_session(id);
+    const DamagedSession* const damaged = find_damaged(id, owner);
+    if (damaged == nullptr) return unknown_session(id);
     return {Cause::kCorrupt,
-            "session " + quoted(id) + " is damaged and was set aside: " + damaged->second.why +
-                "; ask who runs the server for a backup, or upload the mesh to a new session",
+            "session " + quoted(id) + " is damaged and was set aside: " + damaged->why +
+                "; ask who runs the server for a backup, or delete it and upload the mesh to a new session",
             "session"};
+}
+
+/// Null where there is none. Lock held.
+const DamagedSession* SessionStore::find_damaged(std::string_view id, std::string_view owner) const {
+    const auto damaged = damaged_.find(std::string(id));
+    return damaged == damaged_.end() || damaged->second.owner != owner ? nullptr : &damaged->second;
+}
+
+Status SessionStore::remove_damaged(std::string_view id, std::string_view owner) {
+    std::uint64_t number = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        const DamagedSession* const damaged = find_damaged(id, owner);
+        if (damaged == nullptr) return unknown_session(id);
+        number = damaged->number;
+    }
+    if (Status removed = host_.archive.remove({number}); !removed) return removed;
+    const std::lock_guard lock(mutex_);
+    damaged_.erase(std::string(id));
+    return Done{};
 }
 
 std::chrono::milliseconds SessionStore::service_time(Session::Clock::time_point time) const {
@@ -145,6 +165,7 @@ Expected<std::shared_ptr<Session>> SessionStore::find(std::string_view id, std::
 
 Status SessionStore::remove(std::string_view id, std::string_view owner) {
     const Expected<std::shared_ptr<Session>> found = find(id, owner);
+    if (!found && found.error().cause == Cause::kCorrupt) return remove_damaged(id, owner);
     if (!found) return found.error();
     const std::shared_ptr<Session>& session = *found;
     if (Status removed = host_.archive.remove({session->number()}); !removed) return removed;

@@ -40,11 +40,12 @@ public:
     [[nodiscard]] Expected<std::shared_ptr<Session>> create(std::shared_ptr<const SourceMesh> source,
                                                             const std::string& owner = {});
 
-    /// A use of the session: it lives its full time again. \return NOT_FOUND, also for a session of another owner; CORRUPT for one
-    /// that the archive found damaged.
+    /// A use of the session: it lives its full time again. \return NOT_FOUND, also for a session of another owner; CORRUPT for
+    /// one that the archive found damaged.
     [[nodiscard]] Expected<std::shared_ptr<Session>> find(std::string_view id, std::string_view owner = {});
 
-    /// Closes and forgets the session. \return as `find`; what SessionArchive::remove returns, and it is there still.
+    /// Closes and forgets the session, also one that is damaged. \return NOT_FOUND as `find`; what SessionArchive::remove
+    /// returns, and it is there still.
     [[nodiscard]] Status remove(std::string_view id, std::string_view owner = {});
 
     /// `page_size` 0 means kDefaultPage. Looking at the list is no use of the sessions in it.
@@ -72,6 +73,8 @@ public:
 private:
     using Sessions = std::map<std::uint64_t, std::shared_ptr<Session>>;
 
+    [[nodiscard]] const DamagedSession* find_damaged(std::string_view id, std::string_view owner) const;
+    [[nodiscard]] Status remove_damaged(std::string_view id, std::string_view owner);
     [[nodiscard]] Error not_served(std::string_view id, std::string_view owner) const;
     [[nodiscard]] Status require_room_locked(std::string_view owner) const;
     [[nodiscard]] Expected<std::uint64_t> begin_session(const std::string& owner);

@@ -27,6 +27,7 @@ Expected<Upload> Upload::begin(std::shared_ptr<Session> session, const UploadSet
                                MemoryBudget& memory, UploadRoom& disk) {
     const Limits& limits = options.limits;
     if (Status fits = check_upload_bytes(settings.size.value_or(0), limits, "size"); !fits) return fits.error();
+    if (Status room = disk.require(settings.size.value_or(0)); !room) return room.error();
     if (Status ok = check_settings(settings.mesh); !ok) return ok.error();
     if (Status idle = session->require_idle(); !idle) return idle.error();
     Expected<TempFile> file = TempFile::create(options.temp_directory);

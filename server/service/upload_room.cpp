@@ -14,6 +14,17 @@ Status UploadRoom::Share::grow(std::uint64_t bytes) {
 
 Status UploadRoom::take(std::uint64_t bytes) {
     const std::lock_guard lock(mutex_);
+    if (Status room = require_locked(bytes); !room) return room;
+    taken_ += bytes;
+    return Done{};
+}
+
+Status UploadRoom::require(std::uint64_t bytes) {
+    const std::lock_guard lock(mutex_);
+    return require_locked(bytes);
+}
+
+Status UploadRoom::require_locked(std::uint64_t bytes) const {
     const std::uint64_t kept = archive_.use().bytes;
     if (limit_ != 0 && (bytes > limit_ || kept + taken_ > limit_ - bytes)) {
         return Error{Cause::kLimitExceeded,
@@ -22,7 +33,6 @@ Status UploadRoom::take(std::uint64_t bytes) {
                          ", leaves no room for " + std::to_string(bytes) + " more",
                      "data", bytes <= limit_ ? kRetryAfter : 0};
     }
-    taken_ += bytes;
     return Done{};
 }
 

@@ -31,10 +31,14 @@ public:
         std::uint64_t bytes_ = 0;
     };
 
+    /// Whether so many bytes would find room now. \return LIMIT_EXCEEDED.
+    [[nodiscard]] Status require(std::uint64_t bytes);
+
     [[nodiscard]] std::unique_ptr<Share> share() { return std::make_unique<Share>(*this); }
 
 private:
     [[nodiscard]] Status take(std::uint64_t bytes);
+    [[nodiscard]] Status require_locked(std::uint64_t bytes) const;
     void give_back(std::uint64_t bytes);
 
     const SessionArchive& archive_;

@@ -110,7 +110,7 @@ Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
         if (why == damage.end()) {
             restored.sessions.push_back(std::move(records.at(row.number)));
         } else {
-            restored.damaged.push_back({row.id, row.owner, why->second.message});
+            restored.damaged.push_back({row.number, row.id, row.owner, why->second.message});
         }
     }
     put_unknown_aside(keys_of(*blobs));
@@ -158,7 +158,11 @@ Expected<std::shared_ptr<const service::Representation>> StoredSessions::recall(
 
 /// Tells what is new of a session's damage. What the index cannot be told is told again when the server next starts.
 void StoredSessions::judge(const SessionRow& row, const Error* damage) {
-    if (damage != nullptr) ++aside_;
+    if (damage != nullptr) {
+        const std::lock_guard lock(judging_);
+        damaged_.insert(row.number);
+        ++aside_;
+    }
     if (damage != nullptr && !row.set_aside) {
         (*report_)("session " + row.id + " is damaged and set aside: " + damage->message);
         static_cast<void>(index_->set_aside(row.number, damage->message));
@@ -258,6 +262,10 @@ Status StoredSessions::remove(const std::vector<std::uint64_t>& sessions) {
     }
     if (removed) collect();
     reserve_.take();
+    for (const std::uint64_t session : removed ? sessions : std::vector<std::uint64_t>{}) {
+        const std::lock_guard lock(judging_);
+        if (damaged_.erase(session) != 0) --aside_;
+    }
     return removed;
 }
 

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <shared_mutex>
 #include <span>
 #include <string>
@@ -63,6 +65,8 @@ private:
     const std::shared_ptr<const Report> report_;
     std::atomic<std::uint32_t> aside_;  // with indices, whose sessions nobody can count
     std::atomic<bool> writable_{true};
+    std::mutex judging_;
+    std::set<std::uint64_t> damaged_;  // sessions among aside_
     // Shared from before a blob is put until the index names it; alone while unused ones are removed.
     std::shared_mutex collecting_;
 };

@@ -275,6 +275,12 @@ TEST_F(StoredSessionsTest, ADamagedSessionIsSetAsideAndTheOthersAreServed) {
         EXPECT_EQ(blobs().size(), files) << "what is left of it is kept";
         EXPECT_TRUE(run.store.create(nullptr));
     }
+    ServerRun run(scratch_.path(), memory_);
+    EXPECT_EQ(run.store.remove(damaged, "ann").error().cause, Cause::kNotFound);
+    EXPECT_TRUE(run.store.remove(damaged)) << "its owner may delete it";
+    EXPECT_EQ(run.store.find(damaged).error().cause, Cause::kNotFound);
+    EXPECT_EQ(run.archive->use().set_aside, 0U);
+    EXPECT_EQ(blobs().size(), files - 1);
 }
 
 TEST_F(StoredSessionsTest, BytesThatChangedAreReportedWhenTheyAreUsed) {
