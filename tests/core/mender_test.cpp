@@ -7,6 +7,7 @@
 
 #include "tests/core/meshes.h"
 #include "tests/core/polishing.h"
+#include "vsplit/quality/mesh_quality.h"
 
 namespace vsplit::test {
 namespace {
@@ -64,6 +65,38 @@ TEST(MenderTest, FlipsAndMovesLessenWhatIsBrokenAndBreakNothingElse) {
             EXPECT_NEAR(enclosed_volume(p.now()), 1, 1e-6) << "the faces of a cube are flat, and its edges are creases";
         }
     }
+}
+
+TEST(MenderTest, ACreaseThatWentFlatIsFlippedUnlessItCountsWithoutABend) {
+    for (const bool kept_flat : {false, true}) {
+        Polishing p(jittered_cube(10, 0.15, 1), 1e-3);
+        PolishLimits limits = p.limits();
+        limits.crease_cosine = std::cos(40 * kDegree);
+        limits.bounds.min_stretch = 0.5;
+        limits.bounds.min_sine = std::sin(35 * kDegree);
+        for (const HalfEdge h : p.edges()) {
+            if (!p.mesh.is_crease(h)) kept_flat ? p.mesh.mark_kept_flat(h) : p.mesh.mark_crease(h);
+        }
+        const TriangleMesh before = p.now();
+        mend(p, limits, false);
+        if (kept_flat) {
+            EXPECT_EQ(p.now(), before);
+        } else {
+            EXPECT_LT(excess_of(p.now(), limits.bounds).sum, 0.9 * excess_of(before, limits.bounds).sum);
+            EXPECT_NEAR(enclosed_volume(p.now()), 1, 1e-6) << "the edges of the cube stay";
+        }
+        expect_consistent(p);
+    }
+}
+
+TEST(MenderTest, TheLastStepMayBeAsSmallAsItLikes) {
+    Polishing p(jittered_cube(10, 0.15, 2), 1e-3);
+    PolishLimits limits = p.limits();
+    const auto least = [](const TriangleMesh& mesh) { return measure_quality(mesh).stretch_min; };
+    // A bound that the worst face misses by less than a gain that is worth a record.
+    limits.bounds.min_stretch = least(p.now()) + kLeastGain / 4;
+    mend(p, limits, true);
+    EXPECT_GE(least(p.now()), limits.bounds.min_stretch);
 }
 
 TEST(MenderTest, VerticesOfTooManyEdgesGiveSomeToTheirNeighbours) {

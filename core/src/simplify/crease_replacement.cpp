@@ -107,6 +107,7 @@ bool CreaseReplacement::try_flip(HalfEdge h, const Vec3& of_h, const Vec3& of_tw
     if (guard_ == nullptr) return true;
     start();
     const HalfEdge g = mesh_.twin(h);
+    take(h);  // one that has gone flat
     // Each side goes over to the half-edge that the flip puts in its place; see HalfEdgeMesh::flip.
     const auto add = [&](HalfEdge side, HalfEdge becomes, const Vec3& normal) {
         if (!mesh_.is_crease(side)) return;

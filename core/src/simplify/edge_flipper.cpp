@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "simplify/flip_quad.h"
@@ -86,6 +87,7 @@ bool EdgeFlipper::guards_admit(const Quad& quad, HalfEdge h) {
 
 void EdgeFlipper::flip(const Quad& quad, HalfEdge h) {
     log_.record_flip(h);
+    mesh_.unmark_crease(h);
     mesh_.flip(h);
     creases_.commit();
     state_.faces[face_of(h)] = Quad::state(quad.left, state_.sizes.relative(quad.left.size, quad.d, quad.c, quad.a));
@@ -102,11 +104,19 @@ bool EdgeFlipper::flip_if_better(HalfEdge h) {
     return true;
 }
 
+/// Whether the edge is a crease that is one still. One that was flattened on the way to less than half of the angle from which on
+/// an edge is a crease holds nothing but the faces beside it.
+bool EdgeFlipper::bends(HalfEdge h) const {
+    if (!mesh_.is_crease(h)) return false;
+    const double cosine = state_.faces[face_of(h)].normal.dot(state_.faces[face_of(mesh_.twin(h))].normal);
+    return mesh_.is_kept_flat(h) || cosine < std::sqrt((1 + limits_.crease_cosine) / 2);
+}
+
 template <class Value>
 bool EdgeFlipper::flip_best(Value value_of) {
     std::vector<std::pair<double, HalfEdge>> candidates;
     for (const HalfEdge h : open_) {
-        if (mesh_.is_crease(h) || is_beside_ghost(h)) continue;
+        if (bends(h) || is_beside_ghost(h)) continue;
         const Quad quad(mesh_, state_, h);
         const double value = value_of(quad);
         if (value > 0 && may_flip(quad)) candidates.emplace_back(-value, h);

@@ -13,8 +13,8 @@
 
 namespace vsplit {
 
-/// Flips edges where the smaller stretch of the two faces grows and both normals stay; never a crease, and no bound breaks that
-/// held. Tells the log.
+/// Flips edges where the smaller stretch of the two faces grows and both normals stay; never a crease, unless it has gone flat
+/// and a face there is to be mended, and no bound breaks that held. Tells the log.
 class EdgeFlipper {
 public:
     EdgeFlipper(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits)
@@ -49,6 +49,7 @@ private:
     [[nodiscard]] bool flip_if_better(HalfEdge h);
     [[nodiscard]] bool is_as_refused(HalfEdge h) const;
     [[nodiscard]] bool is_beside_ghost(HalfEdge h) const;
+    [[nodiscard]] bool bends(HalfEdge h) const;
     [[nodiscard]] bool may_flip(const Quad& quad) const;
     [[nodiscard]] bool keeps_bounds(const Quad& quad) const;
     template <class Value>

@@ -99,6 +99,7 @@ public:
 
     /// Whether the edge of h is a crease. Edges that a collapse joins are one when either was; a flipped edge keeps its mark.
     [[nodiscard]] bool is_crease(HalfEdge h) const { return creases_[h] != 0; }
+    void unmark_crease(HalfEdge h) { creases_[h] = creases_[twin(h)] = 0; }
     void mark_crease(HalfEdge h) { creases_[h] = creases_[twin(h)] = kCrease; }
 
     /// A crease that counts as one whatever the angle between its faces.

@@ -125,7 +125,8 @@ void VertexMover::relax(std::uint32_t v) {
 
 void VertexMover::lift(std::uint32_t v, double goal) {
     if (!gather_star(v) || shape_.stretch_min >= goal) return;
-    static_cast<void>(search(v, [this](const Vec3&) { return shape_.stretch_min; }, 1));
+    static_cast<void>(search(
+        v, [this](const Vec3&) { return shape_.stretch_min; }, 1));
 }
 
 bool VertexMover::mend(std::uint32_t v) {

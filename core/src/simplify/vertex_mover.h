@@ -44,8 +44,8 @@ private:
     [[nodiscard]] bool admits(const Vec3& place);
     [[nodiscard]] bool sizes_admit(const Vec3& position) const;
     [[nodiscard]] bool keeps_bounds(const Vec3& position) const;
-    /// Steps of a pattern to where value_at(position) is largest, each by a gain worth a record or up to `goal`. Whether the vertex
-    /// moved.
+    /// Steps of a pattern to where value_at(position) is largest, each by a gain worth a record or up to `goal`. Whether the
+    /// vertex moved.
     template <class Value>
     [[nodiscard]] bool search(std::uint32_t v, Value value_at, double goal);
     [[nodiscard]] bool put(std::uint32_t v, const Vec3& place);
