@@ -413,7 +413,8 @@ void add_kinds(CLI::App& verb, Arguments& a) {
         for (const std::string& name : names) a.removal.kinds.push_back(kinds.at(name));
     };
     verb.add_option_function<std::vector<std::string>>(
-            "--kind", take, "With --max-diameter: remove through-hole, blind-hole, boss or fillet alone; may be repeated. Default: all")
+            "--kind", take,
+            "With --max-diameter: remove through-hole, blind-hole, boss or fillet alone; may be repeated. Default: all")
         ->check(one_of(kinds))
         ->type_name("K")
         ->expected(1)
@@ -428,7 +429,8 @@ void add_features(CLI::App& app, Arguments& a) {
 }
 
 void add_remove_features(CLI::App& app, Arguments& a) {
-    CLI::App& verb = *app.add_subcommand("remove-features", "Fill round holes, take bosses away, chamfer fillets; the rest stays as it is");
+    CLI::App& verb =
+        *app.add_subcommand("remove-features", "Fill round holes, take bosses away, chamfer fillets; the rest stays as it is");
     add_feature_search(verb, a);
     verb.add_option("--id", a.removal.ids, "Feature to remove, by the number that `vsplit features` gives it; may be repeated")
         ->check(whole_number())

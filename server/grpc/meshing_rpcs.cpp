@@ -98,7 +98,7 @@ Status get_quality(service::MeshingService& service, const service::Caller& call
     if (!picked) return picked.error();
     const Expected<service::OpenedMesh> opened = picked->open();
     if (!opened) return opened.error();
-    const Expected<service::MemoryBudget::Share> room = 
+    const Expected<service::MemoryBudget::Share> room =
         service.memory().borrow(service::memory_to_measure(opened->ref.faces), "measuring the quality of this mesh");
     if (!room) return room.error();
     if (context.IsCancelled()) return nobody_waits();

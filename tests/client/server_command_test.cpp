@@ -114,7 +114,8 @@ TEST_F(ServerCommandTest, FeaturesAreWhatTheyAreLocally) {
     ASSERT_EQ(removed.exit_status, 0) << removed.err;
     EXPECT_EQ(removed.out, locally({"remove-features", mesh, "--max-diameter", "3.5", "-o", file("near.ply"), "--json"}).out);
     EXPECT_EQ(test::file_content(file("far.ply")), test::file_content(file("near.ply")));
-    const std::vector<std::string> through{"remove-features", mesh, "--max-diameter", "5", "--kind", "through-hole", "--kind", "fillet", "--json"};
+    const std::vector<std::string> through{"remove-features", mesh,     "--max-diameter", "5",     "--kind",
+                                           "through-hole",    "--kind", "fillet",         "--json"};
     const CommandResult one = remotely(through);
     ASSERT_EQ(one.exit_status, 0) << one.err;
     EXPECT_EQ(one.out, locally(through).out);

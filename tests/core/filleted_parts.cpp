@@ -177,8 +177,8 @@ TriangleMesh rounded_box(const Vec3& sides, double radius, std::uint32_t strips)
         const Vec3 out(std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude), std::sin(latitude));
         const Vec3 octant(quarter == 0 || quarter == 3 ? 1 : -1, quarter < 2 ? 1 : -1, row / per_quarter == 0 ? -1 : 1);
         const Vec3 p = octant.cwiseProduct(apart) + radius * out;
-        const auto [found, fresh] =
-            places.try_emplace({std::lround(1e6 * p.x()), std::lround(1e6 * p.y()), std::lround(1e6 * p.z())}, mesh.vertex_count());
+        const auto [found, fresh] = places.try_emplace(
+            {std::lround(1e6 * p.x()), std::lround(1e6 * p.y()), std::lround(1e6 * p.z())}, mesh.vertex_count());
         if (fresh) mesh.positions.push_back(p);
         return found->second;
     };

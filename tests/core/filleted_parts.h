@@ -23,8 +23,8 @@ namespace vsplit::test {
 /// A box of these sides around the origin whose edges and corners are all round.
 [[nodiscard]] TriangleMesh rounded_box(const Vec3& sides, double radius, std::uint32_t strips);
 
-/// A slab of height 6 over a slot's outline, of width 16 and length 46, its upper edge rounded; 2 * `around` faces around in a strip
-/// beside the long ones.
+/// A slab of height 6 over a slot's outline, of width 16 and length 46, its upper edge rounded; 2 * `around` faces around in a
+/// strip beside the long ones.
 [[nodiscard]] TriangleMesh rounded_slab(double radius, std::uint32_t strips, std::uint32_t around);
 
 }  // namespace vsplit::test

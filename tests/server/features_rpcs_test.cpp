@@ -110,7 +110,7 @@ TEST(FeaturesRpcsTest, KindsThatAreNoneOrHoldForNothingAreRefused) {
     v1::RemoveFeaturesRequest unknown = all_under(session, 5);
     unknown.add_kinds(v1::ShapeFeature::KIND_UNSPECIFIED);
     const auto refused = remove(server, unknown);
-    EXPECT_TRUE(failed_with(refused.status, Cause::kInvalidOption));
+    EXPECT_TRUE(failed_with(refused.status, Cause::kInvalidOption, "kinds"));
     EXPECT_THAT(refused.status.error_message(), HasSubstr("accepted are THROUGH_HOLE, BLIND_HOLE, BOSS and FILLET"));
     v1::RemoveFeaturesRequest alone;
     alone.set_session(session);

@@ -11,7 +11,7 @@
 namespace vsplit {
 namespace {
 
-constexpr double kPlane = 0.9986;            // cosine between normals of one plane: 3 degrees
+constexpr double kPlane = 0.9986;                // cosine between normals of one plane: 3 degrees
 constexpr std::size_t kMostBridges = 1U << 22U;  // pairs of vertices that a band is searched among
 
 using Side = std::vector<std::uint32_t>;

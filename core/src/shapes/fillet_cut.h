@@ -19,8 +19,8 @@ struct FilletCut {
 };
 
 /// \return UNSUPPORTED, saying why: an end does not meet one plane. \pre `fillet` has two sides. O(faces of the fillet, log).
-[[nodiscard]] Expected<FilletCut> cut_fillet(const TriangleMesh& mesh, const FaceNormals& normals, const std::vector<HalfEdge>& twin,
-                                             const ShapeFeature& fillet);
+[[nodiscard]] Expected<FilletCut> cut_fillet(const TriangleMesh& mesh, const FaceNormals& normals,
+                                             const std::vector<HalfEdge>& twin, const ShapeFeature& fillet);
 
 /// A piece of the band between two sides: its border, and triangles in vertices of the mesh.
 struct BandPiece {

@@ -17,8 +17,8 @@ constexpr double kLeastTurn = 20 * kDegree, kMostTurn = 150 * kDegree;  // from 
 constexpr double kOneRadius = 0.08;   // on no cylinder or torus: share of the middle radius that sections may be off it
 constexpr std::size_t kFewEdges = 3;  // so many at a side of a run that bends say nothing: any surface has some
 constexpr double kLittleMore = 1.5;   // times the faces of a tube
-constexpr double kTangent = 0.75;    // most bend at the sides over that between strips: an arc on its tangent has a half
-constexpr double kAlongSide = 0.7;   // cosine to the run of an edge at the side; of one at the end it is less
+constexpr double kTangent = 0.75;     // most bend at the sides over that between strips: an arc on its tangent has a half
+constexpr double kAlongSide = 0.7;    // cosine to the run of an edge at the side; of one at the end it is less
 
 using Side = std::vector<std::uint32_t>;
 
@@ -43,7 +43,8 @@ public:
     std::vector<ShapeFeature> run(std::vector<Tube> tubes) {
         std::vector<ShapeFeature> fillets;
         // A surface that fell into several tubes, or has some across as well, is gathered from the largest.
-        std::stable_sort(tubes.begin(), tubes.end(), [](const Tube& l, const Tube& r) { return l.faces.size() > r.faces.size(); });
+        std::stable_sort(tubes.begin(), tubes.end(),
+                         [](const Tube& l, const Tube& r) { return l.faces.size() > r.faces.size(); });
         for (const Tube& tube : tubes) {
             if (std::all_of(tube.faces.begin(), tube.faces.end(), [&](std::uint32_t f) { return tried_[f]; })) continue;
             std::optional<ShapeFeature> fillet = best_of(tube);

@@ -64,7 +64,7 @@ struct Cut {
 /// A patch on a ring.
 struct Filling {
     Ring ring;
-    Patch patch;  // its border in order, as the ring runs
+    Patch patch;               // its border in order, as the ring runs
     std::uint32_t beside = 0;  // a face beside the ring, or where that belongs to another surface one that it replaces
 };
 
@@ -233,7 +233,8 @@ private:
         const std::vector<HalfEdge> twins = half_edge_twins(patch.mesh);
         for (HalfEdge h = 0; h < twins.size(); ++h) {
             const std::uint32_t a = origin(patch.mesh, h), b = origin(patch.mesh, next(h));
-            if (twins[h] != kNone && h < twins[h] && a < patch.border && b < patch.border) edges.push_back(edge(ring[a], ring[b]));
+            if (twins[h] != kNone && h < twins[h] && a < patch.border && b < patch.border)
+                edges.push_back(edge(ring[a], ring[b]));
         }
         return edges;
     }

@@ -11,9 +11,9 @@
 namespace vsplit {
 namespace {
 
-constexpr double kRound = 0.005;      // what share of the radius vertices may be off the surface
-constexpr double kStraight = 0.9999;  // share of the run in one direction
-constexpr int kSteps = 3;             // of a fit that begins closer than that
+constexpr double kRound = 0.005;                              // what share of the radius vertices may be off the surface
+constexpr double kStraight = 0.9999;                          // share of the run in one direction
+constexpr int kSteps = 3;                                     // of a fit that begins closer than that
 constexpr double kLeastSpan = 0.25 * std::numbers::pi / 180;  // of a face across the tube; one along its side spans nothing
 
 /// The circle through the points that `flat` makes of a tube's vertices.
@@ -30,7 +30,8 @@ std::optional<Circle> circle_of(const TriangleMesh& mesh, const Tube& tube, cons
 std::optional<Axis> axis_of(const Tube& tube, const Run& run) {
     const Vec3 u = run.direction.unitOrthogonal(), v = run.direction.cross(u);
     std::vector<Eigen::Vector2d> points;
-    for (const TubeSection& s : tube.sections) points.emplace_back((s.centre - run.centre).dot(u), (s.centre - run.centre).dot(v));
+    for (const TubeSection& s : tube.sections)
+        points.emplace_back((s.centre - run.centre).dot(u), (s.centre - run.centre).dot(v));
     const std::optional<Circle> circle = fit_circle(points);
     if (!circle) return {};
     return Axis{run.centre + circle->centre.x() * u + circle->centre.y() * v, run.direction};
@@ -38,9 +39,8 @@ std::optional<Axis> axis_of(const Tube& tube, const Run& run) {
 
 std::optional<TubeSurface> fit_cylinder_to(const TriangleMesh& mesh, const Tube& tube, const Run& run) {
     const Vec3 u = run.direction.unitOrthogonal(), v = run.direction.cross(u);
-    const std::optional<Circle> circle = circle_of(mesh, tube, [&](const Vec3& p) {
-        return Eigen::Vector2d((p - run.centre).dot(u), (p - run.centre).dot(v));
-    });
+    const std::optional<Circle> circle =
+        circle_of(mesh, tube, [&](const Vec3& p) { return Eigen::Vector2d((p - run.centre).dot(u), (p - run.centre).dot(v)); });
     if (!circle) return {};
     const Vec3 point = run.centre + circle->centre.x() * u + circle->centre.y() * v;
     return TubeSurface{{point, run.direction}, 0, circle->radius, tube.sections.front().convex};
@@ -73,9 +73,8 @@ std::optional<TubeSurface> fit_torus_to(const TriangleMesh& mesh, const Tube& tu
     const std::optional<Axis> axis = axis_of(tube, run);
     if (!axis) return {};
     const double near = axis->radial(tube.sections.front().centre).norm();
-    const std::optional<Circle> circle = circle_of(mesh, tube, [&](const Vec3& p) {
-        return Eigen::Vector2d(axis->radial(p).norm() - near, axis->along(p));
-    });
+    const std::optional<Circle> circle =
+        circle_of(mesh, tube, [&](const Vec3& p) { return Eigen::Vector2d(axis->radial(p).norm() - near, axis->along(p)); });
     if (!circle || !(near + circle->centre.x() > 0)) return {};
     const Vec3 point = axis->point + circle->centre.y() * axis->direction;
     TubeSurface torus{{point, axis->direction}, near + circle->centre.x(), circle->radius, tube.sections.front().convex};
@@ -85,7 +84,8 @@ std::optional<TubeSurface> fit_torus_to(const TriangleMesh& mesh, const Tube& tu
 }
 
 /// Whether a face bridges the tube and lies on it, not beside it with its corners on the border.
-bool lies_on(const TubeSurface& surface, const TriangleMesh& mesh, const FaceNormals& normals, std::uint32_t f, double most_bend) {
+bool lies_on(const TubeSurface& surface, const TriangleMesh& mesh, const FaceNormals& normals, std::uint32_t f,
+             double most_bend) {
     double least = 0, most = 0;
     Vec3 middle = Vec3::Zero();
     const Eigen::Vector2d first = surface.flat(mesh.positions[mesh.faces[f][0]]);
@@ -137,8 +137,7 @@ Vec3 TubeSurface::along_at(const Vec3& p) const {
 
 std::optional<TubeSurface> fit_surface(const TriangleMesh& mesh, const Tube& tube) {
     const Run run = run_of(tube);
-    const std::optional<TubeSurface> surface =
-        run.straight ? fit_cylinder_to(mesh, tube, run) : fit_torus_to(mesh, tube, run);
+    const std::optional<TubeSurface> surface = run.straight ? fit_cylinder_to(mesh, tube, run) : fit_torus_to(mesh, tube, run);
     if (!surface) return {};
     for (const std::uint32_t f : tube.faces) {
         for (const std::uint32_t v : mesh.faces[f]) {
@@ -152,7 +151,9 @@ std::vector<std::uint32_t> faces_on(const TubeSurface& surface, const TriangleMe
                                     const std::vector<HalfEdge>& twin, const Tube& tube, double most_bend) {
     std::set<std::uint32_t> found(tube.faces.begin(), tube.faces.end());
     const auto is_enclosed = [&](std::uint32_t f) {  // a sliver may look elsewhere
-        return found.count(face_of(twin[3 * f])) + found.count(face_of(twin[3 * f + 1])) + found.count(face_of(twin[3 * f + 2])) == 3;
+        return found.count(face_of(twin[3 * f])) + found.count(face_of(twin[3 * f + 1])) +
+                   found.count(face_of(twin[3 * f + 2])) ==
+               3;
     };
     std::vector<std::uint32_t> open = tube.faces;
     while (!open.empty()) {

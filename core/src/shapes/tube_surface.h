@@ -40,7 +40,8 @@ struct TubeSurface {
 
 /// The tube's faces, and those that go on from them on the surface, as strips are not everywhere regular; ascending.
 /// \param most_bend radians, of an edge between two of them. O(faces log faces), of those found.
-[[nodiscard]] std::vector<std::uint32_t> faces_on(const TubeSurface& surface, const TriangleMesh& mesh, const FaceNormals& normals,
-                                                  const std::vector<HalfEdge>& twin, const Tube& tube, double most_bend);
+[[nodiscard]] std::vector<std::uint32_t> faces_on(const TubeSurface& surface, const TriangleMesh& mesh,
+                                                  const FaceNormals& normals, const std::vector<HalfEdge>& twin, const Tube& tube,
+                                                  double most_bend);
 
 }  // namespace vsplit

@@ -39,7 +39,7 @@ std::optional<TubeSection> section_at(const TriangleMesh& mesh, const FaceNormal
     const double bend = std::atan2(turn.norm(), -u.dot(v));
     if (bend < kLeastBend || bend > most_bend) return {};
     const Vec3 arm = (u.squaredNorm() * v - v.squaredNorm() * u).cross(turn) / (2 * turn.squaredNorm());
-    return TubeSection{h,    (a + b) / 2 + arm, along, length, arm.norm(), bend, arm.dot(normals.normals[face_of(h)]) < 0};
+    return TubeSection{h, (a + b) / 2 + arm, along, length, arm.norm(), bend, arm.dot(normals.normals[face_of(h)]) < 0};
 }
 
 /// What lies beside an edge in a strip: the edge at the strip's other side, and the face on it.

@@ -11,7 +11,7 @@ namespace vsplit {
 /// The circle that the faces at both sides of an edge lie on, in the plane across the edge: of a surface that is bent around a
 /// line or a curve it is a section, where the edge runs along it.
 struct TubeSection {
-    HalfEdge edge = 0;  ///< the smaller of its two
+    HalfEdge edge = 0;           ///< the smaller of its two
     Vec3 centre = Vec3::Zero();  ///< beside the middle of the edge
     Vec3 along = Vec3::Zero();   ///< of length 1
     double length = 0;           ///< of the edge

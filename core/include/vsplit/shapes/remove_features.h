@@ -12,9 +12,9 @@ namespace vsplit {
 
 /// Which features go: those with these ids, and all under the diameter. One of the two must be given.
 struct FeatureRemoval {
-    FeatureSearch search{};                ///< as the list was made that the ids are from
-    std::vector<std::uint32_t> ids{};      ///< of `list_features` of the same mesh
-    std::optional<double> max_diameter{};  ///< length, model units, > 0: all of this diameter and less
+    FeatureSearch search{};                   ///< as the list was made that the ids are from
+    std::vector<std::uint32_t> ids{};         ///< of `list_features` of the same mesh
+    std::optional<double> max_diameter{};     ///< length, model units, > 0: all of this diameter and less
     std::vector<ShapeFeature::Kind> kinds{};  ///< with `max_diameter`: of these kinds alone; empty: of all
 };
 

@@ -21,11 +21,11 @@ struct ShapeFeature {
 
     std::uint32_t id = 0;  ///< its place in the list of the mesh
     Kind kind{};
-    double diameter = 0;         ///< of the largest cylinder in it, of a fillet twice its radius; by its vertices; model units
-    double depth = 0;            ///< along the axis, from rim to rim, bottom or top; of a fillet its length; model units
-    Vec3 axis = Vec3::Zero();    ///< of length 1: from the rim inwards (boss: outwards); of a through hole either way; of a fillet
-                                 ///< where it runs, or what it runs around, either way
-    Vec3 centre = Vec3::Zero();  ///< on the axis, at half the depth; of a fillet the mean of the centres of its arcs
+    double diameter = 0;       ///< of the largest cylinder in it, of a fillet twice its radius; by its vertices; model units
+    double depth = 0;          ///< along the axis, from rim to rim, bottom or top; of a fillet its length; model units
+    Vec3 axis = Vec3::Zero();  ///< of length 1: from the rim inwards (boss: outwards); of a through hole either way; of a fillet
+                               ///< where it runs, or what it runs around, either way
+    Vec3 centre = Vec3::Zero();          ///< on the axis, at half the depth; of a fillet the mean of the centres of its arcs
     std::vector<std::uint32_t> faces{};  ///< side faces, with bottom or top; ascending
     /// Of a fillet: the vertices on its two borders with what it joins, side by side, the first in the order in which its faces
     /// run; where it is closed the last vertex is the first. Of others empty.
@@ -40,10 +40,10 @@ struct FeatureSearch {
                         ///< sides falls apart
 };
 
-/// Round holes, bosses and fillets of a mesh, in order of their first face: cut along its creases, the surface falls into segments;
-/// those that are a whole cylinder, with what closes or widens it, are features ([Date05] 6.3.2, ref. 25); so are strips of
-/// faces bent at one radius that run smoothly into what they join. docs/features.md says what is recognised and what is not.
-/// \return EMPTY_INPUT, OPEN_MESH or NON_MANIFOLD for a mesh that is no closed manifold; INVALID_OPTION (field "angle").
+/// Round holes, bosses and fillets of a mesh, in order of their first face: cut along its creases, the surface falls into
+/// segments; those that are a whole cylinder, with what closes or widens it, are features ([Date05] 6.3.2, ref. 25); so are
+/// strips of faces bent at one radius that run smoothly into what they join. docs/features.md says what is recognised and what is
+/// not. \return EMPTY_INPUT, OPEN_MESH or NON_MANIFOLD for a mesh that is no closed manifold; INVALID_OPTION (field "angle").
 /// Complexity: O(faces log faces). Deterministic.
 [[nodiscard]] Expected<std::vector<ShapeFeature>> list_features(const TriangleMesh& mesh, const FeatureSearch& search = {});
 
