@@ -53,8 +53,8 @@ Expected<MeshFile> write_file(const Wanted& wanted, const std::filesystem::path&
     const Expected<service::OpenedMesh> opened = wanted.mesh.open();
     if (!opened) return opened.error();
     const std::uint32_t faces = opened->ref.faces;
-    const Expected<service::MemoryBudget::Share> room = memory.borrow(
-        service::memory_to_write(faces, wanted.surface ? 2 : 1), "writing a file of " + std::to_string(faces) + " faces");
+    const Expected<service::MemoryBudget::Share> room = memory.borrow(service::memory_to_write(faces, wanted.surface ? 2 : 1),
+                                                                      "writing a file of " + std::to_string(faces) + " faces");
     if (!room) return room.error();
     MeshFile file;
     file.facts.mesh = opened->ref;

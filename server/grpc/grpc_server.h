@@ -45,8 +45,8 @@ struct GrpcExtras {
     guard::Gatekeeper* gate = nullptr;       ///< who may make rpcs of the contract; null: everybody; must outlive the server
     GrpcLimits limits{};
     ConnectionLife life{};
-    std::shared_ptr<guard::TlsBook> tls{};              ///< null: plain
-    std::function<void()> on_connection_refused{};      ///< of a connection over the limit
+    std::shared_ptr<guard::TlsBook> tls{};          ///< null: plain
+    std::function<void()> on_connection_refused{};  ///< of a connection over the limit
     service::Patience patience{};                   ///< with uploads
     ShelfLimits shelf{};                            ///< of files that are downloaded
 };

@@ -20,8 +20,7 @@ namespace vsplit::rpc {
 /// takes one part of memory. Reading the mesh is an errand. A client that tries `patience` is not waited for. Deletes itself.
 class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest> {
 public:
-    UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response,
-                 const service::Patience& patience);
+    UploadStream(service::MeshingService& service, RpcWatch watch, v1::Session* response, const service::Patience& patience);
 
     void OnReadDone(bool ok) override;
     void OnSendInitialMetadataDone(bool ok) override;

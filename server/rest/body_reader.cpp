@@ -35,10 +35,10 @@ Awaitable<ErrorCode> BodyReader::say_continue() {
 
 Error BodyReader::failure(const ErrorCode& code) const {
     if (stalled_) {
-        return {Cause::kDeadlineExceeded,
-                "the body stopped after " + std::to_string(received_) + " bytes or came too slowly; " +
-                    limits_.patience.accepted(),
-                ""};
+        return {
+            Cause::kDeadlineExceeded,
+            "the body stopped after " + std::to_string(received_) + " bytes or came too slowly; " + limits_.patience.accepted(),
+            ""};
     }
     const bool broken = code.category() == make_error_code(http::error::bad_chunk).category() &&
                         code != http::error::partial_message && code != http::error::end_of_stream;

@@ -50,8 +50,8 @@ public:
     /// Room for what does not exist yet. \return LIMIT_EXCEEDED naming max_memory_bytes and `what`. O(things kept).
     [[nodiscard]] Expected<Share> reserve(std::uint64_t bytes, std::string_view what);
 
-    /// Room for what is soon gone again, as a file that is written for a reader. It may go a quarter over the limit, so that memory
-    /// full of what cannot leave keeps nobody from reading it. \return as `reserve`.
+    /// Room for what is soon gone again, as a file that is written for a reader. It may go a quarter over the limit, so that
+    /// memory full of what cannot leave keeps nobody from reading it. \return as `reserve`.
     [[nodiscard]] Expected<Share> borrow(std::uint64_t bytes, std::string_view what);
 
     /// Room for what is there already: others give way as far as they can. O(things kept).
@@ -88,7 +88,7 @@ private:
     std::uint64_t used_ = 0;
     std::uint64_t evictions_ = 0;
     std::uint64_t changes_ = 0;  // uses of things and memory given back, so far
-    std::list<Entry> entries_;  // most recent first
+    std::list<Entry> entries_;   // most recent first
     std::unordered_map<const Evictable*, std::list<Entry>::iterator> places_;
 };
 

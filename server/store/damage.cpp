@@ -65,17 +65,19 @@ Expected<fs::path> keep_damaged(const fs::path& directory, Original original) {
     if (!place) return place;
     std::error_code failed;
     const bool is_new = !holds_index(*place, directory);
-    if (is_new) take(directory / kBlobsName, *place / kBlobsName, failed, [](const fs::path& from, const fs::path& to, std::error_code& e) {
-        fs::copy(from, to, fs::copy_options::recursive | fs::copy_options::create_hard_links, e);
-    });
+    if (is_new)
+        take(directory / kBlobsName, *place / kBlobsName, failed,
+             [](const fs::path& from, const fs::path& to, std::error_code& e) {
+                 fs::copy(from, to, fs::copy_options::recursive | fs::copy_options::create_hard_links, e);
+             });
     for (const std::string_view suffix : {"-wal", "-shm", ""}) {
         const std::string name = kIndexName + std::string(suffix);
         if (original == Original::kIsUsed) {
             take(directory / name, *place / name, failed, copy_synchronised);
         } else if (original == Original::kIsReplaced) {
-            if (is_new) take(directory / name, *place / name, failed, [](const fs::path& from, const fs::path& to, std::error_code& e) {
-                fs::create_hard_link(from, to, e);
-            });
+            if (is_new)
+                take(directory / name, *place / name, failed,
+                     [](const fs::path& from, const fs::path& to, std::error_code& e) { fs::create_hard_link(from, to, e); });
         } else {
             take(directory / name, *place / name, failed,
                  [](const fs::path& from, const fs::path& to, std::error_code& e) { fs::rename(from, to, e); });

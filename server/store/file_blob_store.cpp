@@ -161,7 +161,8 @@ Expected<BlobEntry> FileBlobStore::put(std::span<const Bytes> parts) {
     return blob;
 }
 
-/// A damaged blob in its place is put aside when the new one is on disk. False where another caller was quicker with the same bytes.
+/// A damaged blob in its place is put aside when the new one is on disk. False where another caller was quicker with the same
+/// bytes.
 Expected<bool> FileBlobStore::write(const std::string& key, std::span<const Bytes> parts, InPlace found) {
     const fs::path place = place_of(key);
     const fs::path incoming = incoming_ / std::to_string(++written_);

@@ -8,7 +8,8 @@
 namespace vsplit::store {
 
 /// Makes an index with these contents and puts it in the place of the data directory's, so that at any end of the process either
-/// the old one is there or the new one, whole. \return what SqliteSessionIndex::open and take_over return; then the old one stays.
+/// the old one is there or the new one, whole. \return what SqliteSessionIndex::open and take_over return; then the old one
+/// stays.
 [[nodiscard]] Status replace_index(const std::filesystem::path& directory, const IndexContents& contents);
 
 /// Does what an end of the process left undone of `replace_index`. To be called before an index is opened.
