@@ -1,12 +1,16 @@
 // How fast a server sends records to one client, how soon the first block comes, and what readers that stall cost it, on a
 // representation that it holds: rows of a table in Markdown. bench_stream HOST:PORT SESSION PID, PID the server's on this
 // machine.
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <latch>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -45,6 +49,18 @@ v1::SetResolutionRequest all_records(const std::string& session, v1::RecordEncod
     request.set_faces(made.faces_max());
     request.set_encoding(encoding);
     return request;
+}
+
+/// Processor seconds that a process has used, this one without `pid`; 0 where /proc does not say.
+double processor_seconds(const std::string& pid = "self") {
+    std::ifstream file("/proc/" + pid + "/stat");
+    std::string stat((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    std::istringstream fields(stat.substr(std::min(stat.rfind(')') + 1, stat.size())));
+    std::string skipped;
+    for (int field = 0; field < 11; ++field) fields >> skipped;
+    double user = 0, kernel = 0;
+    fields >> user >> kernel;
+    return (user + kernel) / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
 struct Stream {
@@ -108,21 +124,26 @@ int main(int argc, char** argv) {
     if (!made) stop(made.error());
     std::printf(
         "| Encoding | Faces | Payload, MB | First stream, MB/s | MB/s, median of %d | First block, ms: first, median, most |"
-        " MB of the server a stalled reader |\n|---|--:|--:|--:|--:|--:|--:|\n",
+        " CPU seconds a GB: server, client | MB of the server a stalled reader |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
         kRounds);
     for (const auto encoding : {v1::FLOAT64, v1::FLOAT32, v1::QUANTISED}) {
         const v1::SetResolutionRequest request = all_records(session, encoding, *made);
         const Stream first = receive(*client, request);
         std::vector<double> rates, waits;
+        const double server_before = processor_seconds(pid), client_before = processor_seconds();
         for (int round = 0; round < kRounds; ++round) {
             const Stream again = receive(*client, request);
             rates.push_back(again.payload / again.all / 1e6);
             waits.push_back(again.first_block * 1e3);
         }
+        const double gigabytes = kRounds * first.payload / 1e9;
+        const double server_cost = (processor_seconds(pid) - server_before) / gigabytes;
+        const double client_cost = (processor_seconds() - client_before) / gigabytes;
         std::sort(rates.begin(), rates.end());
         std::sort(waits.begin(), waits.end());
-        std::printf("| %s | %u | %.1f | %.0f | %.0f | %.1f, %.1f, %.1f | %.2f |\n", v1::RecordEncoding_Name(encoding).c_str(),
-                    made->faces_max(), first.payload / 1e6, first.payload / first.all / 1e6, rates[kRounds / 2],
-                    first.first_block * 1e3, waits[kRounds / 2], waits.back(), cost_of_stalled(server, pid, request) / 1e6);
+        std::printf("| %s | %u | %.1f | %.0f | %.0f | %.1f, %.1f, %.1f | %.1f, %.1f | %.2f |\n",
+                    v1::RecordEncoding_Name(encoding).c_str(), made->faces_max(), first.payload / 1e6,
+                    first.payload / first.all / 1e6, rates[kRounds / 2], first.first_block * 1e3, waits[kRounds / 2],
+                    waits.back(), server_cost, client_cost, cost_of_stalled(server, pid, request) / 1e6);
     }
 }

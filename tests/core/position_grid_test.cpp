@@ -70,6 +70,8 @@ TEST(PositionGridTest, RefusesWhatIsNoGrid) {
     EXPECT_EQ(check_encoding({RecordEncoding::kQuantised, 0})->bits, kUsualBits);
     EXPECT_FALSE(PositionGrid::quantised(14, Vec3::Zero(), 0));
     EXPECT_FALSE(PositionGrid::quantised(14, Vec3::Zero(), -1));
+    EXPECT_FALSE(PositionGrid::quantised(14, Vec3::Zero(), 0x1p-1023)) << "it has no reciprocal";
+    EXPECT_TRUE(PositionGrid::quantised(14, Vec3::Zero(), 0x1p-1022));
     EXPECT_FALSE(PositionGrid::quantised(24, Vec3::Zero(), 1e9));
     EXPECT_FALSE(PositionGrid::quantised(14, Vec3(0, NAN, 0), 1));
     EXPECT_TRUE(PositionGrid::quantised(14, Vec3(1, 2, 3), 0.5));

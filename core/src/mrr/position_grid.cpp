@@ -43,10 +43,13 @@ PositionGrid PositionGrid::float32() {
 Expected<PositionGrid> PositionGrid::quantised(std::uint32_t bits, const Vec3& origin, double step) {
     if (Status valid = check_bits(bits); !valid) return valid.error();
     const Vec3 end = origin + Vec3::Constant(step * static_cast<double>((std::uint64_t{1} << bits) - 1));
-    if (!(step > 0) || !is_valid_position(origin) || !is_valid_position(end)) {
+    // A lesser step has no reciprocal, and codes come from a product with it.
+    constexpr double kLeastStep = std::numeric_limits<double>::min();
+    if (!(step >= kLeastStep) || !is_valid_position(origin) || !is_valid_position(end)) {
         return Error{Cause::kInvalidOption,
                      "a grid from (" + number_text(origin.x()) + ", " + number_text(origin.y()) + ", " + number_text(origin.z()) +
-                         ") on in steps of " + number_text(step) + "; accepted are positive steps and coordinates up to 1e15",
+                         ") on in steps of " + number_text(step) + "; accepted are steps from " + number_text(kLeastStep) +
+                         " on and coordinates up to 1e15",
                      ""};
     }
     PositionGrid grid;

@@ -18,6 +18,8 @@ export interface Grid {
 export const float64Grid: Grid = { encoding: Encoding.Float64, bits: 0, origin: [0, 0, 0], step: 0 };
 export const float32Grid: Grid = { encoding: Encoding.Float32, bits: 0, origin: [0, 0, 0], step: 0 };
 
+/** The least number that has a reciprocal; codes come from a product with that of the step. */
+const leastStep = 2 ** -1022;
 /** Beyond this no coordinate is accepted. */
 export const largestCoordinate = 1e15;
 
@@ -99,8 +101,8 @@ export function codesOf(grid: Grid): Codes {
   if (grid.encoding !== Encoding.Quantised) throw new CorruptError(`encoding ${grid.encoding} is unknown; 1, 2 and 3 are known`);
   const end = grid.step * (2 ** grid.bits - 1);
   const reach = Math.max(...grid.origin.map((o) => Math.max(Math.abs(o), Math.abs(o + end))));
-  if (!(grid.bits >= 10 && grid.bits <= 24 && grid.step > 0 && reach <= largestCoordinate)) {
-    throw new CorruptError(`a grid of ${grid.bits} bits in steps of ${grid.step}; accepted are 10 to 24 bits and positive steps`);
+  if (!(grid.bits >= 10 && grid.bits <= 24 && grid.step >= leastStep && reach <= largestCoordinate)) {
+    throw new CorruptError(`a grid of ${grid.bits} bits in steps of ${grid.step}; accepted are 10 to 24 bits and steps from ${leastStep} on`);
   }
   return new QuantisedCodes(grid);
 }

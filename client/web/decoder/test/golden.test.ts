@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
-import { CorruptError, crc32c, ProgressiveMesh, RecordDecoder, type Grid, type RecordBlock } from "../src/index.js";
+import { CorruptError, crc32c, Encoding, ProgressiveMesh, RecordDecoder, type Grid, type RecordBlock } from "../src/index.js";
 import { readGolden, type Golden } from "./golden.js";
 
 // dist/test/ stands under client/web/decoder/.
@@ -107,3 +107,10 @@ for (const name of names) {
     assert.equal(state(base), end);
   });
 }
+
+test("a grid whose step has no reciprocal is refused", () => {
+  const grid = (step: number): Grid => ({ encoding: Encoding.Quantised, bits: 14, origin: [0, 0, 0], step });
+  assert.throws(() => new RecordDecoder(grid(2 ** -1023)), CorruptError);
+  assert.throws(() => new RecordDecoder(grid(0)), CorruptError);
+  assert.ok(new RecordDecoder(grid(2 ** -1022)));
+});

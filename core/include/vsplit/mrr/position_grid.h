@@ -39,7 +39,7 @@ public:
     /// Every float.
     [[nodiscard]] static PositionGrid float32();
 
-    /// origin + n * step, n from 0 to 2^bits - 1. \return INVALID_OPTION for bits out of range, a step that is not positive or a
+    /// origin + n * step, n from 0 to 2^bits - 1. \return INVALID_OPTION for bits out of range, a step under 2^-1022 or a
     /// grid that reaches beyond 1e15.
     [[nodiscard]] static Expected<PositionGrid> quantised(std::uint32_t bits, const Vec3& origin, double step);
 

@@ -1,0 +1,69 @@
+#include "mrr/columns.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/core/random.h"
+
+namespace vsplit::test {
+namespace {
+
+struct Piece {
+    std::uint32_t value = 0;
+    unsigned width = 0;
+};
+
+/// Of all widths, more often short ones.
+std::vector<Piece> random_pieces(std::size_t count) {
+    Random random(3);
+    std::vector<Piece> pieces;
+    for (std::size_t n = 0; n < count; ++n) {
+        const unsigned width = random.below(2) == 0 ? random.below(8) : random.below(33);
+        const std::uint64_t most = std::uint64_t{1} << width;
+        const std::uint64_t value = (std::uint64_t{random.below(1U << 16U)} << 16U | random.below(1U << 16U)) % most;
+        pieces.push_back({static_cast<std::uint32_t>(value), width});
+    }
+    return pieces;
+}
+
+constexpr std::size_t kMost = 1U << 20U;
+
+TEST(ColumnsTest, BitsComeBackWhateverTheirWidths) {
+    for (const std::size_t count : {1, 2, 3, 10, 5000}) {
+        const std::vector<Piece> pieces = random_pieces(count);
+        ColumnWriter writer;
+        for (const Piece& piece : pieces) writer.bits(column::kBits, piece.value, piece.width);
+        std::string payload;
+        writer.pack(payload);
+        ColumnReader reader;
+        ASSERT_TRUE(reader.unpack(std::as_bytes(std::span(payload)), kMost));
+        for (const Piece& piece : pieces) EXPECT_EQ(reader.bits(column::kBits, piece.width), piece.value);
+        EXPECT_FALSE(reader.ran_short()) << count;
+        EXPECT_TRUE(reader.all_read()) << count;
+    }
+}
+
+TEST(ColumnsTest, EveryBitThatIsLeftOverIsNoticed) {
+    for (std::uint32_t bytes = 1; bytes < 20; ++bytes) {
+        ColumnWriter writer;
+        for (std::uint32_t n = 0; n < bytes; ++n) writer.bits(column::kBits, 0, 8);
+        std::string payload;
+        writer.pack(payload);
+        ColumnReader reader;
+        ASSERT_TRUE(reader.unpack(std::as_bytes(std::span(payload)), kMost));
+        for (std::uint32_t bit = 0; bit + 8 <= 8 * bytes; ++bit) {
+            EXPECT_FALSE(reader.all_read()) << bit << " of " << bytes << " bytes";
+            static_cast<void>(reader.bits(column::kBits, 1));
+        }
+        EXPECT_TRUE(reader.all_read()) << "what is left fills up a byte";
+        static_cast<void>(reader.bits(column::kBits, 7));
+        EXPECT_FALSE(reader.ran_short());
+        static_cast<void>(reader.bits(column::kBits, 1));
+        EXPECT_TRUE(reader.ran_short());
+    }
+}
+
+}  // namespace
+}  // namespace vsplit::test
