@@ -151,9 +151,8 @@ std::vector<std::uint32_t> faces_on(const TubeSurface& surface, const TriangleMe
                                     const std::vector<HalfEdge>& twin, const Tube& tube, double most_bend) {
     std::set<std::uint32_t> found(tube.faces.begin(), tube.faces.end());
     const auto is_enclosed = [&](std::uint32_t f) {  // a sliver may look elsewhere
-        return found.count(face_of(twin[3 * f])) + found.count(face_of(twin[3 * f + 1])) +
-                   found.count(face_of(twin[3 * f + 2])) ==
-               3;
+        const HalfEdge h = 3 * f;
+        return found.count(face_of(twin[h])) + found.count(face_of(twin[h + 1])) + found.count(face_of(twin[h + 2])) == 3;
     };
     std::vector<std::uint32_t> open = tube.faces;
     while (!open.empty()) {
