@@ -137,7 +137,7 @@ Vec3 TubeSurface::along_at(const Vec3& p) const {
 
 std::optional<TubeSurface> fit_surface(const TriangleMesh& mesh, const Tube& tube) {
     const Run run = run_of(tube);
-    const std::optional<TubeSurface> surface = run.straight ? fit_cylinder_to(mesh, tube, run) : fit_torus_to(mesh, tube, run);
+    std::optional<TubeSurface> surface = run.straight ? fit_cylinder_to(mesh, tube, run) : fit_torus_to(mesh, tube, run);
     if (!surface) return {};
     for (const std::uint32_t f : tube.faces) {
         for (const std::uint32_t v : mesh.faces[f]) {
