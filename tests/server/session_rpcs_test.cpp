@@ -14,6 +14,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 double seconds_between(const google::protobuf::Timestamp& from, const google::protobuf::Timestamp& to) {
     return static_cast<double>(to.seconds() - from.seconds()) + (to.nanos() - from.nanos()) * 1e-9;
@@ -113,6 +114,29 @@ TEST(GetSessionTest, ShowsTheMeshAndItsRepresentations) {
     EXPECT_EQ(session.message.source().faces(), 320U);
     ASSERT_EQ(session.message.representations_size(), 1);
     EXPECT_EQ(session.message.representations(0).id(), "r1");
+}
+
+TEST(DownloadMeshTest, ElementsAreOfTheOrderAskedFor) {
+    TestServer server;
+    const TriangleMesh mesh = icosphere(1);  // 42 vertices, 120 edges
+    v1::DownloadMeshRequest request;
+    request.set_session(session_with(server.stub(), mesh));
+    request.set_format(v1::INP);
+    const std::string as_is = download(server.stub(), request).file;
+    request.set_order(1);
+    EXPECT_EQ(download(server.stub(), request).file, as_is);
+    EXPECT_THAT(as_is, HasSubstr("TYPE=S3"));
+    EXPECT_THAT(as_is, Not(HasSubstr("\n162, ")));
+    request.set_order(2);
+    const std::string second = download(server.stub(), request).file;
+    EXPECT_THAT(second, HasSubstr("TYPE=S6"));
+    EXPECT_THAT(second, HasSubstr("\n162, "));
+    EXPECT_THAT(second, Not(HasSubstr("\n163, ")));
+    request.set_order(3);
+    EXPECT_TRUE(failed_with(download(server.stub(), request).status, Cause::kInvalidOption, "order"));
+    request.set_order(2);
+    request.set_format(v1::STL);
+    EXPECT_TRUE(failed_with(download(server.stub(), request).status, Cause::kUnsupported, "order"));
 }
 
 TEST(ListSessionsTest, PagesInOrderOfCreation) {

@@ -138,7 +138,8 @@ private:
     static constexpr double kForbidden = std::numeric_limits<double>::infinity();
 
     [[nodiscard]] double cost(std::size_t i, std::size_t j, std::size_t back_a, std::size_t back_b) const {
-        return i < back_a || j < back_b ? kForbidden : cost_[(i - back_a) * b_.size() + j - back_b];
+        if (i < back_a || j < back_b) return kForbidden;
+        return cost_[(i - back_a) * b_.size() + j - back_b];
     }
 
     const Side& a_;

@@ -137,7 +137,7 @@ Vec3 TubeSurface::along_at(const Vec3& p) const {
 
 std::optional<TubeSurface> fit_surface(const TriangleMesh& mesh, const Tube& tube) {
     const Run run = run_of(tube);
-    const std::optional<TubeSurface> surface = run.straight ? fit_cylinder_to(mesh, tube, run) : fit_torus_to(mesh, tube, run);
+    std::optional<TubeSurface> surface = run.straight ? fit_cylinder_to(mesh, tube, run) : fit_torus_to(mesh, tube, run);
     if (!surface) return {};
     for (const std::uint32_t f : tube.faces) {
         for (const std::uint32_t v : mesh.faces[f]) {
@@ -151,9 +151,8 @@ std::vector<std::uint32_t> faces_on(const TubeSurface& surface, const TriangleMe
                                     const std::vector<HalfEdge>& twin, const Tube& tube, double most_bend) {
     std::set<std::uint32_t> found(tube.faces.begin(), tube.faces.end());
     const auto is_enclosed = [&](std::uint32_t f) {  // a sliver may look elsewhere
-        return found.count(face_of(twin[3 * f])) + found.count(face_of(twin[3 * f + 1])) +
-                   found.count(face_of(twin[3 * f + 2])) ==
-               3;
+        const HalfEdge h = 3 * f;
+        return found.count(face_of(twin[h])) + found.count(face_of(twin[h + 1])) + found.count(face_of(twin[h + 2])) == 3;
     };
     std::vector<std::uint32_t> open = tube.faces;
     while (!open.empty()) {
