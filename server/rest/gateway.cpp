@@ -179,7 +179,8 @@ Awaitable<void> Gateway::serve_page(Exchange& exchange, const Page& page) {
 
 Awaitable<void> Gateway::serve_ready(Exchange& exchange) {
     if (backend_.ready && !backend_.ready()) {
-        co_return co_await exchange.fail(problem_of(Error{Cause::kUnavailable, "the server is shutting down", ""}));
+        const Error error{Cause::kUnavailable, "the server is shutting down", ""};
+        co_return co_await exchange.fail(problem_of(error));
     }
     co_await serve_page(exchange, pages_.find("/healthz")->second);
 }
@@ -199,7 +200,8 @@ Awaitable<void> Gateway::serve_rpc(Exchange& exchange, const Route& route, const
         case RpcShape::kNone:
             break;
     }
-    co_await exchange.fail(problem_of(Error{Cause::kUnsupported, route.rpc->full_name() + " is for gRPC only", ""}));
+    const Error error{Cause::kUnsupported, route.rpc->full_name() + " is for gRPC only", ""};
+    co_await exchange.fail(problem_of(error));
 }
 
 }  // namespace vsplit::rest
