@@ -234,7 +234,7 @@ const steps = {
   },
 
   async "faces that break a bound, and slivers, are flown to, at the resolution that has them"({ page, address }) {
-    await run(page, "control", { minStretch: 0.5, maxValence: 7 });
+    await run(page, "control", { minStretch: 0.5, maxValence: 7, maxSize: 3 });
     await page.waitForFunction(() => location.hash.includes("representation=r3"), null, { timeout: 60000 });
     await settled(page);
     const shown = await shownOn(page);
