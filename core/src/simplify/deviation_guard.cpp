@@ -81,9 +81,8 @@ int DeviationGuard::steps_along(double length, double step) const {
 bool DeviationGuard::reaches_source(std::span<const NewFace> faces) {
     if (faces.empty()) return true;
     bool apex_tried = false;
-    const NewFace* before = &faces.back();
-    bool before_stays = stays_in_plane(*before);
-    Vec3 normal_before = normal_of(*before);
+    bool before_stays = stays_in_plane(faces.back());
+    Vec3 normal_before = normal_of(faces.back());
     for (const NewFace& f : faces) {
         const bool stays = stays_in_plane(f);
         if (!apex_tried && !stays) {
@@ -93,7 +92,6 @@ bool DeviationGuard::reaches_source(std::span<const NewFace> faces) {
         const Vec3 normal = normal_of(f);
         const bool fin = makes_fin(normal, normal_before);
         if (!inside_reaches_source(f, stays && before_stays && !fin, fin ? kFinStep : kStep)) return false;
-        before = &f;
         before_stays = stays;
         normal_before = normal;
     }
