@@ -153,7 +153,7 @@ TEST(FrozenBoundaryTest, TooManyFacesOfSizesAreRefusedWithALeastSizeThatFits) {
     for (const std::uint32_t cells : {8U, 16U}) {
         const TriangleMesh mesh = square(cells);
         SizingOptions sizing;
-        sizing.spheres = {{Vec3(cells / 2, cells / 2, 0), 1, 1e-3}};
+        sizing.spheres = {{Vec3(cells / 2.0, cells / 2.0, 0), 1, 1e-3}};
         const auto field = [&] { return *make_size_field(mesh, sizing, {}); };
         const auto refused = subdivide_to_sizes_inside(mesh, field(), 2000, context);
         ASSERT_FALSE(refused);
