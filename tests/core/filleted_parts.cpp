@@ -1,6 +1,7 @@
 #include "tests/core/filleted_parts.h"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -93,6 +94,7 @@ private:
     /// The square of the corners from `first` on around a ring: a fan from each.
     void plane(const Ring& ring, std::uint32_t first, bool turned) {
         const std::uint32_t n = around_;
+        assert(n > 0);
         for (std::uint32_t k = 0; k < n; ++k) face(ring[k], first + 4 * k / n, ring[(k + 1) % n], turned);
         for (std::uint32_t q = 0; q < 4; ++q) face(first + q, first + (q + 1) % 4, ring[(q + 1) * n / 4 % n], turned);
     }

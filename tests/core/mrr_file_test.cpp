@@ -86,7 +86,10 @@ std::string with_field_1(std::string bytes, std::size_t at, std::uint32_t value)
 }
 
 /// Base mesh, description and index of example() end here.
-std::size_t blocks_of_example_at() { return kHeaderBytes + 4 * 24 + 4 * 12 + example().description.size() + kIndexBytes; }
+/// Four vertices and four faces.
+constexpr std::size_t kBaseBytes = std::size_t{4} * 24 + std::size_t{4} * 12;
+
+std::size_t blocks_of_example_at() { return kHeaderBytes + kBaseBytes + example().description.size() + kIndexBytes; }
 
 /// A field of the index of example(), whose checksum fits again.
 std::string with_index(std::string bytes, std::size_t at, std::uint32_t value) {
@@ -333,7 +336,7 @@ TEST(MrrFileTest, BaseMeshMustBeClosedAndSound) {
 TEST(MrrFileTest, RecordsMustFitTheMesh) {
     const auto refused = [](const RecordList& records, const std::string& what) {
         const StoredMrr stored{{documented_base(), records}, 100, ""};
-        const std::string block_at = std::to_string(kHeaderBytes + 4 * 24 + 4 * 12 + kIndexBytes);
+        const std::string block_at = std::to_string(kHeaderBytes + kBaseBytes + kIndexBytes);
         expect_error(encode_mrr(stored), Cause::kCorrupt, "byte " + block_at + ": record block from record 0 on: " + what);
     };
     const VertexSplit good{0, 1, {0, 0, 0}, {1, 1, 1}};
@@ -358,7 +361,7 @@ MultiresMesh many_splits() {
 
 TEST(MrrFileTest, BlocksMustFollowEachOther) {
     const std::string bytes = encode_mrr({many_splits(), 4, ""});  // two blocks
-    const std::size_t index = kHeaderBytes + 4 * 24 + 4 * 12, second = index + kIndexBytes;
+    const std::size_t index = kHeaderBytes + kBaseBytes, second = index + kIndexBytes;
     const auto with = [&](std::size_t at, std::uint32_t value) {
         std::string changed = bytes;
         put(changed, at, value);
@@ -434,7 +437,7 @@ TEST(MrrFileTest, ADeviationIsThatOfALevel) {
     StoredMrr stored{{documented_base(), documented_records()}, 0, ""};
     stored.mrr.records.truncate(3);  // the last is a move: what follows the block is no level
     std::string bytes = encode_mrr(stored);
-    const std::size_t index = kHeaderBytes + 4 * 24 + 4 * 12;
+    const std::size_t index = kHeaderBytes + kBaseBytes;
     put(bytes, index + 20, 0);  // the high half of NaN becomes that of a length
     bytes = with_field(bytes, 24, 1);
     bytes = with_field(bytes, 200, crc_of(bytes, kHeaderBytes, index + kIndexBytes - kHeaderBytes));
