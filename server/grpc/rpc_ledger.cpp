@@ -69,7 +69,8 @@ RpcWatch::RpcWatch(RpcLedger& ledger, grpc::CallbackServerContext& context, std:
     entry.origin = origin_of(context);
     Expected<std::string> owner = ledger_->begin(method, entry.origin);
     if (!owner) entry.admitted = owner.error();
-    entry.caller = {owner ? *owner : kNobody, entry.origin.request_id};
+    const wire::TraceContext& trace = entry.origin.trace;
+    entry.caller = {owner ? *owner : kNobody, {entry.origin.request_id, trace.trace_id, trace.span_id}};
     entry.origin.authorization.clear();
     context.AddInitialMetadata(wire::kRequestIdKey, entry.origin.request_id);
     entry_ = std::make_shared<const Entry>(std::move(entry));

@@ -196,10 +196,12 @@ void log_job(const service::JobRecord& record) {
                                        {"faces_in", record.faces_in},
                                        {"faces_out", record.faces_out},
                                        {"session", record.session},
-                                       {"request", record.request_id}});
+                                       {"request", record.mark.request_id},
+                                       {"trace", record.mark.trace_id},
+                                       {"span", record.mark.span_id}});
     }
     spdlog::warn("slow job: {} {} {:.1f} s after {:.1f} s of waiting, {} faces in, {} out, session {} request {}", record.method,
-                 outcome, record.seconds, record.waited, record.faces_in, record.faces_out, record.session, record.request_id);
+                 outcome, record.seconds, record.waited, record.faces_in, record.faces_out, record.session, record.mark.request_id);
 }
 
 void log_reload(const std::string& file, const Status& read) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "service/caller.h"
 #include "vsplit/base/error.h"
 
 namespace vsplit::service {
@@ -14,9 +15,9 @@ namespace vsplit::service {
 struct JobRecord {
     std::string_view method;  ///< "Improve", "Control" or "RemoveFeatures"
     std::string session{};
-    std::string request_id{};  ///< of the call that asked for it
-    double waited = 0;         ///< seconds between the call and the worker
-    double seconds = 0;        ///< of the worker
+    CallMark mark{};     ///< of the call that asked for it
+    double waited = 0;   ///< seconds between the call and the worker
+    double seconds = 0;  ///< of the worker
     std::uint32_t faces_in = 0;
     std::uint32_t faces_out = 0;     ///< 0 where it failed
     std::optional<Cause> outcome{};  ///< empty: it succeeded

@@ -21,7 +21,7 @@ MethodJob::MethodJob(std::shared_ptr<Session> session, PickedMesh source, Method
       host_(host),
       events_(std::move(events)),
       note_(std::move(note)),
-      request_id_(caller.request_id),
+      mark_(caller.mark),
       context_([this](const Progress& progress) { tell(progress); }, host.options.threads) {}
 
 Job::Report MethodJob::run() {
@@ -45,7 +45,7 @@ void MethodJob::record(const JobOutcome& outcome, std::chrono::steady_clock::tim
     using Seconds = std::chrono::duration<double>;
     JobRecord record{std::holds_alternative<ImproveOptions>(request_.options) ? "Improve" : "Control"};
     record.session = session_->id();
-    record.request_id = request_id_;
+    record.mark = mark_;
     record.waited = Seconds(began - asked_).count();
     record.seconds = Seconds(std::chrono::steady_clock::now() - began).count();
     record.faces_in = faces_in_;

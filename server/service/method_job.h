@@ -71,7 +71,7 @@ private:
     const MethodHost host_;
     const JobEvents events_;
     const std::shared_ptr<JobNote> note_;
-    const std::string request_id_;
+    const CallMark mark_;
     const std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
     ProgressGate gate_;
     ExecutionContext context_;

@@ -66,7 +66,7 @@ void record(const MeshingService& service, const Session& session, const Caller&
     if (!service.options().job_observer) return;
     JobRecord record{"RemoveFeatures"};
     record.session = session.id();
-    record.request_id = caller.request_id;
+    record.mark = caller.mark;
     record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     record.faces_in = faces;
     if (outcome) {

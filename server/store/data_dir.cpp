@@ -109,7 +109,7 @@ Expected<bool> look_over(const fs::path& directory, bool writable, const Report&
 Expected<std::unique_ptr<SqliteSessionIndex>> begin_anew(const fs::path& directory, const Error& damage, const Report& report) {
     const Expected<fs::path> aside = keep_damaged(directory, Original::kIsReplaced);
     if (!aside) return aside.error();
-    const IndexContents sound = salvage(*aside / kIndexName);
+    const IndexContents sound = salvage(*aside / kIndexName, directory / "sessions.db.copy");
     if (Status replaced = replace_index(directory, sound); !replaced) return replaced.error();
     report(damage.message + "; put aside untouched in " + aside->string() +
            ", and begun anew with what is sound of it: " + std::to_string(sound.sessions.size()) + " sessions with " +

@@ -17,18 +17,19 @@ namespace fs = std::filesystem;
 constexpr const char* kBegun = "sessions.db.new";
 constexpr const char* kReady = "sessions.db.ready";
 
-void remove_with_log(const fs::path& index, std::error_code& failed) {
+Status failure(const std::error_code& failed) {
+    return service::disk_error("cannot put a new index in the place of the damaged one", failed.value());
+}
+
+}  // namespace
+
+void remove_index(const fs::path& index, std::error_code& failed) {
     for (const char* suffix : {"-wal", "-shm", ""}) {
         if (!failed) fs::remove(index.string() + suffix, failed);
     }
 }
 
-Status failure(const std::error_code& failed) {
-    return service::disk_error("cannot put a new index in the place of the damaged one", failed.value());
-}
-
-/// Written and synchronised.
-Status make(const fs::path& place, const IndexContents& contents) {
+Status make_index(const fs::path& place, const IndexContents& contents) {
     {
         Expected<std::unique_ptr<SqliteSessionIndex>> index = SqliteSessionIndex::open(place);
         if (!index) return index.error();
@@ -42,14 +43,12 @@ Status make(const fs::path& place, const IndexContents& contents) {
     return failed ? failure(failed) : Status(Done{});
 }
 
-}  // namespace
-
 Status replace_index(const fs::path& directory, const IndexContents& contents) {
     std::error_code failed;
-    remove_with_log(directory / kBegun, failed);
+    remove_index(directory / kBegun, failed);
     if (failed) return failure(failed);
-    if (Status made = make(directory / kBegun, contents); !made) {
-        remove_with_log(directory / kBegun, failed);
+    if (Status made = make_index(directory / kBegun, contents); !made) {
+        remove_index(directory / kBegun, failed);
         return made;
     }
     fs::rename(directory / kBegun, directory / kReady, failed);
@@ -62,7 +61,7 @@ Status finish_replacement(const fs::path& directory) {
     std::error_code failed;
     if (!fs::exists(directory / kReady, failed)) return failed ? failure(failed) : Status(Done{});
     // Its log must not be taken for the new one's.
-    remove_with_log(directory / kIndexName, failed);
+    remove_index(directory / kIndexName, failed);
     if (!failed) fs::rename(directory / kReady, directory / kIndexName, failed);
     if (failed) return failure(failed);
     if (!sync_directory(directory)) return service::disk_error("cannot keep a new index");

@@ -295,12 +295,32 @@ protected:
 
 TEST_F(DamagedIndexTest, ABitThatChangesLosesAPageOfSessionsAtMost) {
     constexpr std::size_t kStep = 1999;
-    constexpr std::size_t kPage = 4096;  // the first one has the schema, and nothing can be read without
-    for (std::size_t at = kPage + 100; at < written_.size(); at += kStep) {
+    for (std::size_t at = 100; at < written_.size(); at += kStep) {
         std::string damaged = written_;
         damaged[at] = static_cast<char>(damaged[at] ^ 1 << at % 8);
         EXPECT_GE(served_of(damaged) + 8, kSessions) << at << ": " << told_;
     }
+}
+
+TEST_F(DamagedIndexTest, APageThatIsLostLosesItsSessionsAtMost) {
+    constexpr std::size_t kPage = 4096;
+    constexpr std::size_t kRoot = 2 * kPage;  // of the table of sessions: what it leads to is not found without it
+    for (std::size_t at = 0; at < written_.size(); at += kPage) {
+        if (at == kRoot) continue;
+        for (const char fill : {'\0', '\xa5'}) {
+            std::string damaged = written_;
+            damaged.replace(at, kPage, kPage, fill);
+            EXPECT_GE(served_of(damaged) + 8, kSessions) << at << ": " << told_;
+            EXPECT_FALSE(std::filesystem::exists(directory_ / "sessions.db.copy"));
+        }
+    }
+}
+
+TEST_F(DamagedIndexTest, TheFirstPageThatIsLostLosesNothing) {
+    std::string damaged = written_;
+    damaged.replace(0, 4096, 4096, '\0');
+    EXPECT_EQ(served_of(damaged), kSessions);
+    EXPECT_THAT(told_, HasSubstr("100 sessions with 100 representations"));
 }
 
 /// However far a server got that was killed while it replaced its index.
