@@ -2,18 +2,17 @@
 
 #include <google/protobuf/stubs/logging.h>
 #include <grpc/support/log.h>
-#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cmath>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "ops/line_writer.h"
+#include "ops/log_line.h"
 #include "service/quoted.h"
 #include "wire/error_table.h"
 
@@ -22,8 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Level = spdlog::level::level_enum;
-
-constexpr const char* kTime = "%Y-%m-%dT%H:%M:%S.%eZ";
 
 // Set once, before there are threads.
 LogOptions& options() {
@@ -42,47 +39,13 @@ void log_protobuf(google::protobuf::LogLevel /*level*/, const char* /*file*/, in
     if (spdlog::should_log(spdlog::level::debug)) spdlog::debug("protobuf: {}", message);
 }
 
-// Writes the record as a member list after what every line has. Bytes that are no UTF-8 become U+FFFD.
-class JsonFormatter final : public spdlog::formatter {
-public:
-    void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
-        time_.format(message, out);
-        const spdlog::string_view_t text = message.payload;
-        const bool object = text.size() > 0 && *text.data() == '{';
-        const std::string rest = object ? std::string(text.data() + 1, text.size() - 1)
-                                        : "\"event\":\"server\",\"message\":" + dump(std::string(text.data(), text.size())) + '}';
-        out.append(rest.data(), rest.data() + rest.size());
-        out.push_back('\n');
-    }
-
-    [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override { return std::make_unique<JsonFormatter>(); }
-
-    [[nodiscard]] static std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-private:
-    spdlog::pattern_formatter time_{std::string("{\"time\":\"") + kTime + "\",\"level\":\"%l\",", spdlog::pattern_time_type::utc,
-                                    ""};
-};
-
-std::unique_ptr<spdlog::formatter> formatter_of(bool json) {
-    if (json) return std::make_unique<JsonFormatter>();
-    return std::make_unique<spdlog::pattern_formatter>(std::string(kTime) + " %l %v", spdlog::pattern_time_type::utc);
-}
-
-std::string line_of(spdlog::formatter& formatter, Level level, const std::string& text) {
-    spdlog::memory_buf_t line;
-    formatter.format(spdlog::details::log_msg("vsplitd", level, text), line);
-    return fmt::to_string(line);
-}
-
 class Sink final : public spdlog::sinks::base_sink<std::mutex> {
 public:
     explicit Sink(bool json)
         : writer_(STDERR_FILENO, [json](std::uint64_t lines) {
-              return line_of(*formatter_of(json), Level::warn,
-                             std::to_string(lines) + " lines of the log were dropped: stderr was not read");
+              return log_line(json, Level::warn, std::to_string(lines) + " lines of the log were dropped: stderr was not read");
           }) {
-        formatter_ = formatter_of(json);
+        formatter_ = log_formatter(json);
     }
 
     bool wait(std::chrono::milliseconds longest) { return writer_.flush(longest); }
@@ -105,9 +68,7 @@ std::shared_ptr<Sink>& sink() {
     return held;
 }
 
-void write(Level level, const Json& json) {
-    spdlog::default_logger_raw()->log(level, spdlog::string_view_t(JsonFormatter::dump(json)));
-}
+void write(Level level, const Json& json) { spdlog::default_logger_raw()->log(level, spdlog::string_view_t(json_text(json))); }
 
 double milliseconds(std::chrono::steady_clock::duration time) {
     constexpr double kTenths = 10;
@@ -151,10 +112,6 @@ void start_logging(const LogOptions& wanted) {
 void flush_log() {
     constexpr std::chrono::seconds kLongest{1};
     if (sink() != nullptr) sink()->wait(kLongest);
-}
-
-void say_failure(const std::string& message, bool json) {
-    std::cerr << (json ? line_of(*formatter_of(true), Level::err, message) : "vsplitd: " + message + '\n') << std::flush;
 }
 
 void log_rpc(const rpc::RpcRecord& record) {
@@ -201,7 +158,8 @@ void log_job(const service::JobRecord& record) {
                                        {"span", record.mark.span_id}});
     }
     spdlog::warn("slow job: {} {} {:.1f} s after {:.1f} s of waiting, {} faces in, {} out, session {} request {}", record.method,
-                 outcome, record.seconds, record.waited, record.faces_in, record.faces_out, record.session, record.mark.request_id);
+                 outcome, record.seconds, record.waited, record.faces_in, record.faces_out, record.session,
+                 record.mark.request_id);
 }
 
 void log_reload(const std::string& file, const Status& read) {

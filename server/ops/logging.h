@@ -23,9 +23,6 @@ void start_logging(const LogOptions& options);
 /// Gives the log a moment to be written; at the program's end.
 void flush_log();
 
-/// Says at once, on stderr, why the program ends: "vsplitd: MESSAGE", or an object as the log's.
-void say_failure(const std::string& message, bool json);
-
 /// One line for an rpc: method, code, milliseconds, session, request, and what went wrong.
 void log_rpc(const rpc::RpcRecord& record);
 

@@ -22,6 +22,7 @@
 #include "guard/gatekeeper.h"
 #include "ops/exposure.h"
 #include "ops/listen_address.h"
+#include "ops/log_line.h"
 #include "ops/logging.h"
 #include "ops/metrics.h"
 #include "ops/new_token.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "ops/logging.h"
+#include "ops/log_line.h"
 #include "ops/number_range.h"
 
 namespace vsplit::ops {
