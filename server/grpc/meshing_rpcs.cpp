@@ -162,9 +162,12 @@ auto* MeshingRpcs::stream(Context& context, const char* method, const Request& r
 
 grpc::ServerUnaryReactor* MeshingRpcs::CreateSession(Context* context, const v1::CreateSessionRequest* request,
                                                      v1::Session* response) {
-    return answer_later(context, RpcWatch(ledger_, *context, "CreateSession", ""), &service::MeshingService::intake,
-                        [this, context, request, response](const service::Caller& caller) {
-                            return create_session(service_, caller, *context, *request, *response);
+    const RpcWatch watch(ledger_, *context, "CreateSession", "");
+    return answer_later(context, watch, &service::MeshingService::intake,
+                        [this, watch, context, request, response](const service::Caller& caller) {
+                            Status created = create_session(service_, caller, *context, *request, *response);
+                            watch.set_session(response->id());
+                            return created;
                         });
 }
 

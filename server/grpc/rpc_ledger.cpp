@@ -40,6 +40,10 @@ Expected<std::string> RpcLedger::begin(std::string_view method, const CallOrigin
     return gate_->admit({origin.authorization, origin.peer}, access_of(method));
 }
 
+std::string RpcLedger::name_of(const CallOrigin& origin) const {
+    return gate_ == nullptr ? std::string() : gate_->name_of(origin.authorization);
+}
+
 void RpcLedger::end(const RpcRecord& record) {
     if (observer_) observer_(record);
     // Told under the lock: who waits may destroy the ledger as soon as it is released.
@@ -64,23 +68,25 @@ bool RpcLedger::wait_until_idle(std::chrono::milliseconds longest) {
 }
 
 RpcWatch::RpcWatch(RpcLedger& ledger, grpc::CallbackServerContext& context, std::string_view method, std::string session)
-    : ledger_(&ledger), method_(method), session_(std::move(session)) {
+    : ledger_(&ledger), method_(method) {
     Entry entry;
+    entry.session = std::move(session);
     entry.origin = origin_of(context);
     Expected<std::string> owner = ledger_->begin(method, entry.origin);
+    entry.token = owner ? *owner : ledger_->name_of(entry.origin);
     if (!owner) entry.admitted = owner.error();
     const wire::TraceContext& trace = entry.origin.trace;
     entry.caller = {owner ? *owner : kNobody, {entry.origin.request_id, trace.trace_id, trace.span_id}};
     entry.origin.authorization.clear();
     context.AddInitialMetadata(wire::kRequestIdKey, entry.origin.request_id);
-    entry_ = std::make_shared<const Entry>(std::move(entry));
+    entry_ = std::make_shared<Entry>(std::move(entry));
 }
 
 Status RpcWatch::admit() const { return entry_->admitted ? ledger_->admit() : entry_->admitted; }
 
 void RpcWatch::finished(const grpc::Status& status) const {
-    ledger_->end({method_, session_, status, std::chrono::steady_clock::now() - entry_->start,
-                  entry_->admitted ? entry_->caller.owner : std::string(), entry_->origin});
+    ledger_->end(
+        {method_, entry_->session, status, std::chrono::steady_clock::now() - entry_->start, entry_->token, entry_->origin});
 }
 
 }  // namespace vsplit::rpc

@@ -28,6 +28,9 @@ public:
     [[nodiscard]] Expected<std::string> begin(std::string_view method, const CallOrigin& origin);
     void end(const RpcRecord& record);
 
+    /// The name of the token that a call carries, for the log; empty for none that is known.
+    [[nodiscard]] std::string name_of(const CallOrigin& origin) const;
+
     /// Whether a new rpc may do its work. \return UNAVAILABLE after `close`.
     [[nodiscard]] Status admit() const;
     void close();
@@ -54,7 +57,8 @@ public:
     /// Tells the client the request's id. \pre `method` is a literal; `ledger` outlives the rpc.
     RpcWatch(RpcLedger& ledger, grpc::CallbackServerContext& context, std::string_view method, std::string session);
 
-    void set_session(std::string session) { session_ = std::move(session); }
+    /// Where the request does not name it. From the thread that finishes the rpc.
+    void set_session(std::string session) const { entry_->session = std::move(session); }
 
     /// Whether the rpc may do its work. \return what RpcLedger::begin and RpcLedger::admit return.
     [[nodiscard]] Status admit() const;
@@ -68,6 +72,8 @@ public:
 private:
     struct Entry {
         CallOrigin origin;
+        std::string session;
+        std::string token;  // the name of the call's, admitted or not
         service::Caller caller;
         Status admitted = Done{};
         std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
@@ -75,8 +81,7 @@ private:
 
     RpcLedger* ledger_;
     std::string_view method_;
-    std::string session_;
-    std::shared_ptr<const Entry> entry_;
+    std::shared_ptr<Entry> entry_;
 };
 
 }  // namespace vsplit::rpc

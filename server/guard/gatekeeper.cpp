@@ -49,6 +49,12 @@ Status Gatekeeper::recognise(std::string_view authorization) {
     return unauthenticated(token);
 }
 
+std::string Gatekeeper::name_of(std::string_view authorization) {
+    std::optional<TokenBook::Holder> holder;
+    if (tokens_ != nullptr) holder = tokens_->find(token_of(authorization));
+    return holder ? std::move(holder->name) : std::string();
+}
+
 Status Gatekeeper::take_turn(std::string_view kind, std::string_view client) {
     const unsigned wait = rates_.take(std::string(kind) + std::string(client), RateLimiter::Clock::now());
     if (wait == 0) return Done{};

@@ -32,6 +32,9 @@ public:
     /// \return UNAUTHENTICATED.
     [[nodiscard]] Status recognise(std::string_view authorization);
 
+    /// The name of the token; empty for none of the book. Counts nothing. O(tokens).
+    [[nodiscard]] std::string name_of(std::string_view authorization);
+
 private:
     [[nodiscard]] Status take_turn(std::string_view kind, std::string_view client);
 

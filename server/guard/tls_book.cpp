@@ -17,6 +17,12 @@ Error unusable(const std::string& file, const std::string& what, const ErrorCode
     return {Cause::kInvalidOption, "cannot use " + file + " as " + what + ": " + why.message() + "; accepted is PEM", "tls-cert"};
 }
 
+std::string names_of(const TlsFiles& files) {
+    return files.cert + ", " + files.key + (files.client_ca.empty() ? "" : ", " + files.client_ca);
+}
+
+int authorities(context& tls) { return sk_X509_OBJECT_num(X509_STORE_get0_objects(SSL_CTX_get_cert_store(tls.native_handle()))); }
+
 Expected<TlsSet> read_texts(const TlsFiles& files) {
     TlsSet set;
     for (const auto& [file, text] :
@@ -48,6 +54,9 @@ Expected<TlsBook::Set> TlsBook::read(const TlsFiles& files) {
     if (failed) return unusable(files.key, "the certificate's key", failed);
     if (!files.client_ca.empty()) {
         set.context->add_certificate_authority(boost::asio::buffer(set.client_ca), failed);
+        if (!failed && authorities(*set.context) == 0)
+            return Error{Cause::kInvalidOption, files.client_ca + " has no certificate of an authority; accepted is PEM",
+                         "tls-client-ca"};
         if (!failed)
             set.context->set_verify_mode(boost::asio::ssl::verify_peer | boost::asio::ssl::verify_fail_if_no_peer_cert, failed);
         if (failed) return unusable(files.client_ca, "authorities of clients", failed);
@@ -67,7 +76,7 @@ std::shared_ptr<const TlsSet> TlsBook::current() {
     if (!watched_.changed()) return set_;
     Expected<Set> set = read(files_);
     const Status read_anew = set ? Status(Done{}) : Status(set.error());
-    if (watched_.note(read_anew) && observer_) observer_(files_.cert, read_anew);
+    if (watched_.note(read_anew) && observer_) observer_(names_of(files_), read_anew);
     if (set) set_ = *std::move(set);
     return set_;
 }

@@ -4,6 +4,7 @@
 
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 namespace vsplit::ops {
 namespace {
@@ -18,7 +19,7 @@ public:
     void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
         time_.format(message, out);
         const spdlog::string_view_t text = message.payload;
-        const bool object = text.size() > 0 && *text.data() == '{';
+        const bool object = std::string_view(message.logger_name.data(), message.logger_name.size()) == kObjectLogger;
         const std::string rest =
             object ? std::string(text.data() + 1, text.size() - 1)
                    : "\"event\":\"server\",\"message\":" + json_text(std::string(text.data(), text.size())) + '}';

@@ -8,7 +8,10 @@
 
 namespace vsplit::ops {
 
-/// What makes a line of the log: an object, or text. A message that is an object already gives its members.
+/// Messages of this logger are objects of JSON already.
+inline constexpr const char* kObjectLogger = "object";
+
+/// What makes a line of the log: an object, or text. A message of kObjectLogger gives its members.
 [[nodiscard]] std::unique_ptr<spdlog::formatter> log_formatter(bool json);
 
 /// As the log has it; bytes that are no UTF-8 become U+FFFD.

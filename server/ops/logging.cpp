@@ -68,6 +68,11 @@ std::shared_ptr<Sink>& sink() {
     return held;
 }
 
+std::shared_ptr<spdlog::logger>& objects() {
+    static std::shared_ptr<spdlog::logger> held;
+    return held;
+}
+
 void write(Level level, const Json& json) { spdlog::default_logger_raw()->log(level, spdlog::string_view_t(json_text(json))); }
 
 double milliseconds(std::chrono::steady_clock::duration time) {
@@ -104,6 +109,7 @@ void start_logging(const LogOptions& wanted) {
     sink() = std::make_shared<Sink>(wanted.json);
     auto logger = std::make_shared<spdlog::logger>("vsplitd", sink());
     logger->set_level(wanted.level == "error" ? spdlog::level::err : spdlog::level::from_str(wanted.level));
+    objects() = logger->clone(kObjectLogger);
     spdlog::set_default_logger(std::move(logger));
     gpr_set_log_function(log_grpc);
     google::protobuf::SetLogHandler(log_protobuf);
@@ -164,9 +170,9 @@ void log_job(const service::JobRecord& record) {
 
 void log_reload(const std::string& file, const Status& read) {
     if (read) {
-        spdlog::info("{} was read anew", file);
+        spdlog::info("read anew: {}", file);
     } else {
-        spdlog::error("{} was changed and cannot be used, what it said before holds: {}", file, read.error().message);
+        spdlog::error("cannot be used as changed, what held before holds: {}: {}", file, read.error().message);
     }
 }
 

@@ -31,6 +31,7 @@
 #include "ops/server_options.h"
 #include "rest/openapi.h"
 #include "rest/rest_server.h"
+#include "service/machine_memory.h"
 #include "service/meshing_service.h"
 #include "service/sweeper.h"
 #include "store/data_dir.h"
@@ -103,6 +104,12 @@ struct Guard {
     std::unique_ptr<guard::Gatekeeper> gate;
 };
 
+void warn_of_open_key(const std::string& file) {
+    struct stat about {};
+    if (stat(file.c_str(), &about) == 0 && (about.st_mode & (S_IRGRP | S_IROTH)) != 0)
+        spdlog::warn("{} can be read by others than its owner; whoever has this key can be this server", file);
+}
+
 Expected<Guard> make_guard(const ServerOptions& options, Metrics& metrics) {
     const guard::ReloadObserver on_read = [&metrics](const std::string& file, const Status& read) {
         log_reload(file, read);
@@ -113,6 +120,7 @@ Expected<Guard> make_guard(const ServerOptions& options, Metrics& metrics) {
         Expected<std::shared_ptr<guard::TlsBook>> tls = guard::TlsBook::open(options.tls, on_read);
         if (!tls) return tls.error();
         made.tls = *std::move(tls);
+        warn_of_open_key(options.tls.key);
     }
     std::unique_ptr<guard::TokenBook> tokens;
     if (!options.token_file.empty()) {
@@ -194,23 +202,15 @@ Expected<std::optional<store::DataDir>> open_data_dir(const ServerOptions& optio
     return std::optional(*std::move(opened));
 }
 
-// gRPC is to have room for some of the largest messages at once, or it could not take one.
-Status check_message_memory(const ServerOptions& options) {
-    constexpr std::uint64_t kAtLeast = 4;
-    if (options.max_message_memory >= kAtLeast * options.max_message_bytes) return Done{};
-    return Error{Cause::kInvalidOption,
-                 "max-message-memory-bytes is " + std::to_string(options.max_message_memory) +
-                     "; accepted are 0 and four times max-message-bytes or more, " +
-                     std::to_string(kAtLeast * options.max_message_bytes),
-                 "max-message-memory-bytes"};
-}
-
 int serve(const ServerOptions& options, const ListenAddress& address, const std::optional<ListenAddress>& http) {
-    if (Status room = check_message_memory(options); !room) return fail(options, room.error().message);
     Metrics metrics;
     const Expected<Guard> guard = make_guard(options, metrics);
     if (!guard) return fail(options, guard.error().message);
     service::ServiceOptions service_options = options.service;
+    service_options.on_expired = [&metrics](const std::string& session) {
+        metrics.session_expired();
+        spdlog::info("session {} expired", session);
+    };
     service_options.job_observer = [&metrics](const service::JobRecord& record) {
         metrics.job_ended(record);
         log_job(record);

@@ -56,6 +56,7 @@ Metrics::Metrics()
           prometheus::BuildHistogram().Name("vsplit_job_wait_seconds").Help("How long methods waited").Register(registry_)),
       job_faces_(counters(registry_, "vsplit_job_faces_total", "Faces that methods were given, of those that succeeded")),
       sessions_(gauge(registry_, "vsplit_sessions", "Sessions that are held")),
+      expired_(counters(registry_, "vsplit_sessions_expired_total", "Sessions that nobody used for --session-ttl").Add({})),
       methods_running_(gauge(registry_, "vsplit_jobs_running", "Methods that a worker is at")),
       methods_waiting_(gauge(registry_, "vsplit_jobs_queued", "Methods that wait")),
       memory_(gauge(registry_, "vsplit_memory_bytes", "Memory of meshes, representations and methods, as estimated")),
@@ -63,7 +64,10 @@ Metrics::Metrics()
       evictions_(counters(registry_, "vsplit_evictions_total", "Meshes and representations that left memory for others").Add({})),
       disk_(gauge(registry_, "vsplit_disk_bytes", "Meshes and representations in the data directory")),
       disk_limit_(gauge(registry_, "vsplit_disk_limit_bytes", "What they may take together, --max-disk-bytes; 0: no limit")),
-      set_aside_(gauge(registry_, "vsplit_sessions_set_aside", "Sessions in the data directory that are damaged and not served")),
+      disk_free_(gauge(registry_, "vsplit_disk_free_bytes", "Room on the file system of uploads and of the data directory")),
+      set_aside_(gauge(registry_, "vsplit_sessions_set_aside",
+                       "Sessions in the data directory that are damaged and not served, and indices (damaged-N)")),
+      blobs_aside_(gauge(registry_, "vsplit_blobs_set_aside", "Files in blobs/aside of the data directory, that no session has")),
       refuses_writes_(
           gauge(registry_, "vsplit_data_dir_refuses_writes",
                 "1 while nothing can be written to the data directory: it is full or read-only; looked at every ten seconds")),
@@ -115,6 +119,8 @@ void Metrics::http_ended(const rest::HttpRecord& record) {
     http_out_.Increment(static_cast<double>(record.bytes_out));
 }
 
+void Metrics::session_expired() { expired_.Increment(); }
+
 void Metrics::connection_refused() { refused_.Increment(); }
 
 void Metrics::job_ended(const service::JobRecord& record) {
@@ -146,7 +152,9 @@ std::string Metrics::text(const service::ServiceLoad& load) {
     evictions_.Increment(static_cast<double>(load.memory.evictions) - evictions_.Value());
     disk_.Set(static_cast<double>(load.archive.bytes));
     disk_limit_.Set(static_cast<double>(load.archive.limit));
+    disk_free_.Set(static_cast<double>(load.disk_free));
     set_aside_.Set(static_cast<double>(load.archive.set_aside));
+    blobs_aside_.Set(static_cast<double>(load.archive.blobs_aside));
     refuses_writes_.Set(load.archive.writable ? 0 : 1);
     const ProcessUse use = process_use();
     resident_.Set(static_cast<double>(use.resident_bytes));

@@ -24,9 +24,9 @@ namespace vsplit::ops {
 /// by; vsplit_message_bytes_total (by direction) its messages. vsplit_http_requests_total (by status) and vsplit_http_bytes_total
 /// (bodies, by direction) are HTTP's own, vsplit_connections_refused_total is of gRPC connections. vsplit_jobs_total (by method
 /// and outcome), vsplit_job_seconds, vsplit_job_wait_seconds and vsplit_job_faces_total (by method) are of methods that a worker
-/// was at. vsplit_memory_bytes and vsplit_evictions_total are of the budget of memory, vsplit_disk_bytes and
-/// vsplit_sessions_set_aside and vsplit_data_dir_refuses_writes of the data directory, vsplit_files_unusable of
-/// certificates and tokens. process_* are those that Prometheus' clients have.
+/// was at. vsplit_memory_bytes and vsplit_evictions_total are of the budget of memory, vsplit_disk_bytes,
+/// vsplit_sessions_set_aside, vsplit_blobs_set_aside and vsplit_data_dir_refuses_writes of the data directory,
+/// vsplit_files_unusable of certificates and tokens. process_* are those that Prometheus' clients have.
 class Metrics final : public rpc::RpcMeter {
 public:
     Metrics();
@@ -38,6 +38,7 @@ public:
     void http_ended(const rest::HttpRecord& record);
     void connection_refused();
     void job_ended(const service::JobRecord& record);
+    void session_expired();
     /// A file that is watched was read anew, or could not be used.
     void file_read(const std::string& file, bool usable);
 
@@ -61,6 +62,7 @@ private:
     prometheus::Family<prometheus::Histogram>& job_waited_;
     prometheus::Family<prometheus::Counter>& job_faces_;
     prometheus::Gauge& sessions_;
+    prometheus::Counter& expired_;
     prometheus::Gauge& methods_running_;
     prometheus::Gauge& methods_waiting_;
     prometheus::Gauge& memory_;
@@ -68,7 +70,9 @@ private:
     prometheus::Counter& evictions_;
     prometheus::Gauge& disk_;
     prometheus::Gauge& disk_limit_;
+    prometheus::Gauge& disk_free_;
     prometheus::Gauge& set_aside_;
+    prometheus::Gauge& blobs_aside_;
     prometheus::Gauge& refuses_writes_;
     prometheus::Gauge& files_unusable_;
     std::mutex reading_;

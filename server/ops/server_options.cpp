@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
+#include <regex>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -21,9 +23,31 @@ constexpr std::int64_t kLongestTtl = std::int64_t{100} * 366 * 24 * 3600;
 constexpr unsigned kMostThreads = 1024;
 constexpr std::uint32_t kDay = 24 * 3600;
 constexpr std::uint32_t kMostStreams = std::uint32_t{1} << 30;
-constexpr std::uint32_t kLeastMessageBytes = std::uint32_t{1} << 16;
+constexpr std::uint32_t kLeastMessageBytes = std::uint32_t{1} << 19;  // twice what clients put a mesh into
 constexpr std::uint64_t kMessagesInMemory = 16;
 constexpr std::uint32_t kMostMessageBytes = std::uint32_t{1} << 30;
+
+// gRPC is to have room for some of the largest messages at once, or it could not take one.
+Status check_message_memory(const ServerOptions& options) {
+    constexpr std::uint64_t kAtLeast = 4;
+    if (options.max_message_memory >= kAtLeast * options.max_message_bytes) return Done{};
+    return Error{Cause::kInvalidOption,
+                 "max-message-memory-bytes is " + std::to_string(options.max_message_memory) +
+                     "; accepted are 0 and four times max-message-bytes or more, " +
+                     std::to_string(kAtLeast * options.max_message_bytes),
+                 "max-message-memory-bytes"};
+}
+
+// What no option says alone.
+Status check_together(const ServerOptions& options) {
+    if (options.max_disk_bytes > 0 && options.data_dir.empty()) {
+        return Error{Cause::kInvalidOption,
+                     "max-disk-bytes is " + std::to_string(options.max_disk_bytes) +
+                         ", but there is no data-dir; accepted without one is 0",
+                     "max-disk-bytes"};
+    }
+    return check_message_memory(options);
+}
 
 bool takes_free_port(std::string_view listen) { return listen.size() > 2 && listen.substr(listen.size() - 2) == ":0"; }
 
@@ -192,14 +216,35 @@ void add_environment(CLI::App& app, const Environment& environment, std::vector<
     arguments.insert(arguments.begin(), more.begin(), more.end());
 }
 
+/// The value of the last of an option's; nothing where it is not among them.
+std::optional<std::string> value_of(const std::vector<std::string>& arguments, const std::string& option) {
+    std::optional<std::string> value;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        if (arguments[i].starts_with(option + '=')) value = arguments[i].substr(option.size() + 1);
+        if (arguments[i] == option && i + 1 < arguments.size()) value = arguments[i + 1];
+    }
+    return value;
+}
+
 // Before anything is parsed: for what is wrong with the rest.
 bool asks_for_json(const std::vector<std::string>& arguments) {
-    constexpr std::string_view kOption = "--log-format";
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-        if (arguments[i] == std::string(kOption) + "=json") return true;
-        if (arguments[i] == kOption && i + 1 < arguments.size() && arguments[i + 1] == "json") return true;
+    if (const auto format = value_of(arguments, "--log-format")) return format == "json";
+    std::ifstream file(value_of(arguments, "--config").value_or(""));
+    const std::regex says_json("\\s*log-format\\s*=\\s*[\"']?json[\"']?\\s*");
+    for (std::string line; std::getline(file, line);) {
+        if (std::regex_match(line, says_json)) return true;
     }
     return false;
+}
+
+/// Where a wrong value came from, which CLI11 does not tell: its words begin with the option's name.
+std::string source_of(const std::string& told, const std::vector<std::string>& given, const std::vector<std::string>& all) {
+    const std::string option = told.substr(0, told.find(':'));
+    const auto is_in = [&option](const std::vector<std::string>& arguments) { return value_of(arguments, option).has_value(); };
+    if (!option.starts_with("--") || is_in(given)) return "";
+    if (is_in(all)) return variable_of(option.substr(2)) + " of the environment: ";
+    const auto file = value_of(all, "--config");
+    return file ? *file + ": " : "";
 }
 
 std::string names_of(const CLI::App& app) {
@@ -211,6 +256,18 @@ std::string names_of(const CLI::App& app) {
     return names;
 }
 
+/// CLI11 speaks of INI, and of a section as of an option.
+std::string config_problem(const std::string& file, const CLI::ConfigError& error, const CLI::App& app) {
+    std::string name = error.what();
+    const std::size_t parse = name.find("parse ");
+    if (parse != std::string::npos) name = name.substr(parse + std::string_view("parse ").size());
+    const std::size_t section = name.find(".++");
+    const std::string what = section == std::string::npos
+                                 ? "no option is called '" + name + "'"
+                                 : "it has a section [" + name.substr(0, section) + "], and options are in none";
+    return file + ": " + what + "; accepted are " + names_of(app);
+}
+
 }  // namespace
 
 std::optional<std::string> process_environment(const std::string& name) {
@@ -220,19 +277,22 @@ std::optional<std::string> process_environment(const std::string& name) {
 
 std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv, const Environment& environment) {
     Parser parser;
-    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    const std::vector<std::string> given(argv + std::min(argc, 1), argv + argc);
+    std::vector<std::string> arguments = given;
     add_environment(parser.app(), environment, arguments);
     const bool json = asks_for_json(arguments);
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     try {
-        parser.app().parse(std::move(arguments));
+        parser.app().parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // as CLI11 wants them
     } catch (const CLI::ConfigError& error) {
-        say_failure(std::string("the file of --config: ") + error.what() + "; accepted are " + names_of(parser.app()), json);
-        return 1;
+        return say_failure(config_problem(value_of(arguments, "--config").value_or("the configuration"), error, parser.app()),
+                           json),
+               1;
     } catch (const CLI::ParseError& error) {
-        if (json && error.get_exit_code() != 0) return say_failure(error.what(), json), 1;
+        const std::string source = source_of(error.what(), given, arguments);
+        if (error.get_exit_code() != 0 && (json || !source.empty())) return say_failure(source + error.what(), json), 1;
         return parser.app().exit(error, std::cout, std::cerr) == 0 ? 0 : 1;
     }
+    if (Status fits = check_together(parser.options()); !fits) return say_failure(fits.error().message, json), 1;
     if (parser.print_config()) {
         std::cout << parser.app().config_to_str(true, false);
         return 0;
@@ -247,7 +307,9 @@ Expected<ServerOptions> parse_config(std::istream& text) {
     } catch (const CLI::Error& error) {
         return Error{Cause::kInvalidOption, error.what(), "config"};
     }
-    return parser.options();
+    const ServerOptions options = parser.options();
+    if (Status fits = check_together(options); !fits) return fits.error();
+    return options;
 }
 
 }  // namespace vsplit::ops

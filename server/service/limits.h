@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include "service/job_record.h"
 
@@ -33,6 +35,7 @@ struct ServiceOptions {
     std::chrono::milliseconds session_ttl = std::chrono::hours(1);  ///< an unused session lives this long
     std::filesystem::path temp_directory{};                         ///< for unnamed files; empty: $TMPDIR or /tmp
     JobObserver job_observer{};                                     ///< for metrics and the log
+    std::function<void(const std::string& session)> on_expired{};   ///< as above; must not block
 };
 
 }  // namespace vsplit::service

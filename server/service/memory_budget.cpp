@@ -1,9 +1,6 @@
 #include "service/memory_budget.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <string>
 #include <thread>
@@ -133,14 +130,6 @@ std::vector<std::weak_ptr<Evictable>> MemoryBudget::least_recent_first() const {
     things.reserve(entries_.size());
     std::transform(entries_.rbegin(), entries_.rend(), std::back_inserter(things), [](const Entry& e) { return e.thing; });
     return things;
-}
-
-std::uint64_t usual_memory_limit() {
-    std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    std::ifstream group("/sys/fs/cgroup/memory.max");  // of the container, which sees its own group as the root
-    std::uint64_t of_group = 0;
-    if (group >> of_group) bytes = std::min(bytes, of_group);  // "max" is no number
-    return bytes / 4 * 3;
 }
 
 }  // namespace vsplit::service

@@ -92,7 +92,4 @@ private:
     std::unordered_map<const Evictable*, std::list<Entry>::iterator> places_;
 };
 
-/// Three quarters of the memory that this machine, or the control group the process is in, has, in bytes.
-[[nodiscard]] std::uint64_t usual_memory_limit();
-
 }  // namespace vsplit::service

@@ -16,7 +16,7 @@ constexpr std::uint64_t kToMeasure = 100;
 constexpr std::uint64_t kToWrite = 250;
 constexpr std::uint64_t kToWriteSecondOrder = 550;
 
-// Of a file, a face takes no less.
+// Of a file, a face usually takes no less.
 constexpr std::uint64_t kStlFace = 50;
 constexpr std::uint64_t kOtherFace = 15;
 
@@ -44,9 +44,8 @@ std::uint64_t memory_of(const MethodOptions& options) {
         options);
 }
 
-std::uint64_t memory_to_read(std::span<const std::byte> file, bool repair) {
-    const std::uint64_t faces = unpacked_size(file) / (detect_format(file) == MeshFormat::kStlBinary ? kStlFace : kOtherFace);
-    return memory_to_read(faces, repair);
+std::uint64_t usual_faces(std::span<const std::byte> file) {
+    return 1 + unpacked_size(file) / (detect_format(file) == MeshFormat::kStlBinary ? kStlFace : kOtherFace);
 }
 
 std::uint64_t memory_to_read(std::uint64_t faces, bool repair) { return faces * (repair ? kToRepair : kToRead); }

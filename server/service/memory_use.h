@@ -18,8 +18,10 @@ namespace vsplit::service {
 /// What a request holds: arrays may be as large as a mesh.
 [[nodiscard]] std::uint64_t memory_of(const MethodOptions& options);
 
-/// What reading a file takes while it goes on, the mesh included; a repair takes more.
-[[nodiscard]] std::uint64_t memory_to_read(std::span<const std::byte> file, bool repair);
+/// How many faces a file of this size has at most, unless it has polygons of many corners, or names them twice.
+[[nodiscard]] std::uint64_t usual_faces(std::span<const std::byte> file);
+
+/// What reading takes while it goes on, the mesh included; a repair takes more.
 [[nodiscard]] std::uint64_t memory_to_read(std::uint64_t faces, bool repair);
 
 /// What is taken while the quality of a mesh is measured, or its features are looked for, beside the mesh.

@@ -1,6 +1,8 @@
 #include "service/meshing_service.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -112,7 +114,10 @@ Status MeshingService::require_room_in_queue() const {
 
 ServiceLoad MeshingService::load() const {
     const WorkerPool::Load methods = methods_.load();
-    return {sessions_.count(), methods.running, methods.waiting + sessions_.waiting_jobs(), memory_.use(), archive_->use()};
+    std::error_code unknown;
+    const std::uint64_t free = std::filesystem::space(TempFile::directory_of(options_.temp_directory), unknown).available;
+    return {sessions_.count(), methods.running, methods.waiting + sessions_.waiting_jobs(),
+            memory_.use(),     archive_->use(), unknown ? 0 : free};
 }
 
 void MeshingService::end_sessions() {

@@ -28,6 +28,7 @@ struct ServiceLoad {
     std::size_t methods_waiting = 0;  ///< for a worker, or for another method of their session
     MemoryBudget::Use memory{};
     ArchiveUse archive{};
+    std::uint64_t disk_free = 0;  ///< bytes of the file system that uploads, and the archive's files, are on
 };
 
 /// Everything a front door needs, whatever it speaks. Thread-safe. Functions marked heavy are for a pool, the others return at
@@ -82,7 +83,7 @@ public:
     /// As `errand`, for what waits for the disk.
     [[nodiscard]] bool disk_errand(WorkerPool::Task task) { return disk_.submit(std::move(task)).has_value(); }
 
-    /// O(sessions).
+    /// O(sessions). Asks the file system.
     [[nodiscard]] ServiceLoad load() const;
 
     /// The server ends: forgets all sessions, which the archive keeps, and stops their methods, whose events are called with

@@ -53,9 +53,10 @@ struct Restored {
 /// How much an archive holds.
 struct ArchiveUse {
     std::uint64_t bytes = 0;
-    std::uint64_t limit = 0;      ///< bytes; 0: none
-    std::uint32_t set_aside = 0;  ///< sessions, and indices of sessions, that are damaged; they are kept and not served
-    bool writable = true;         ///< whether the last that was to be written, at most a sweep ago, could be
+    std::uint64_t limit = 0;        ///< bytes; 0: none
+    std::uint32_t set_aside = 0;    ///< sessions, and indices of sessions, that are damaged; they are kept and not served
+    std::uint64_t blobs_aside = 0;  ///< files that no session has, and that are not deleted
+    bool writable = true;           ///< whether the last that was to be written, at most a sweep ago, could be
 };
 
 /// Where sessions outlive the server. Thread-safe. Every call but `use` may wait for a disk.

@@ -200,7 +200,10 @@ Expected<SessionPage> SessionStore::list(std::uint32_t page_size, std::string_vi
 
 std::size_t SessionStore::remove_expired() {
     const std::vector<std::shared_ptr<Session>> taken = take_expired();
-    for (const std::shared_ptr<Session>& session : taken) session->close({Cause::kCancelled, "the session expired", "session"});
+    for (const std::shared_ptr<Session>& session : taken) {
+        session->close({Cause::kCancelled, "the session expired", "session"});
+        if (host_.options.on_expired) host_.options.on_expired(session->id());
+    }
     std::vector<std::uint64_t> numbers;
     {
         const std::lock_guard lock(mutex_);

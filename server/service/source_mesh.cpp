@@ -1,5 +1,6 @@
 #include "service/source_mesh.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,18 +40,26 @@ std::shared_ptr<const SourceMesh> make_source(TriangleMesh mesh, MeshReport repo
 Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byte> bytes, const MeshSettings& settings,
                                                         const Limits& limits, MemoryBudget& budget, const StillWanted& wanted) {
     return guarded([&]() -> Expected<std::shared_ptr<const SourceMesh>> {
-        const Expected<MemoryBudget::Share> room =
-            budget.reserve(memory_to_read(bytes, settings.repair.has_value()), "reading this mesh");
-        if (!room) return room.error();
-        std::vector<MemoryBudget::Share> more;
+        std::vector<MemoryBudget::Share> shares;
+        bool refused = false;
         const auto make_room = [&](std::uint64_t faces) -> Status {
             Expected<MemoryBudget::Share> share =
                 budget.reserve(memory_to_read(faces, settings.repair.has_value()), "reading this mesh");
+            refused = !share;
             if (!share) return share.error();
-            more.push_back(*std::move(share));
+            shares.push_back(*std::move(share));
             return Done{};
         };
-        Expected<ReadResult> read = read_mesh(bytes, {settings.format, settings.weld, limits.faces, settings.unit, make_room});
+        // What a file of this size usually has; where it has more faces, as polygons of many corners do, it is read anew.
+        constexpr std::uint64_t kMore = 2;
+        std::uint64_t most = 0;
+        Expected<ReadResult> read = Error{};
+        do {
+            shares.clear();
+            most = std::min<std::uint64_t>(most == 0 ? usual_faces(bytes) : kMore * most, limits.faces);
+            if (Status room = make_room(most); !room) return room.error();
+            read = read_mesh(bytes, {settings.format, settings.weld, static_cast<std::uint32_t>(most), settings.unit, make_room});
+        } while (!read && read.error().cause == Cause::kLimitExceeded && most < limits.faces && !refused);
         if (!read) return explained(read.error(), limits);
         const BoundedWork work("reading this mesh", limits, wanted);
         Expected<MeshReport> report = inspect_source(read->mesh, read->weld, settings.repair, work.context());

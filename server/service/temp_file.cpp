@@ -45,8 +45,12 @@ FileMapping& FileMapping::operator=(FileMapping&& other) noexcept {
     return *this;
 }
 
+std::filesystem::path TempFile::directory_of(const std::filesystem::path& wanted) {
+    return wanted.empty() ? usual_directory() : wanted;
+}
+
 Expected<TempFile> TempFile::create(const std::filesystem::path& wanted) {
-    const std::filesystem::path directory = wanted.empty() ? usual_directory() : wanted;
+    const std::filesystem::path directory = directory_of(wanted);
     int descriptor = open(directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (descriptor < 0) descriptor = create_and_unlink(directory);
     if (descriptor < 0) return disk_error("cannot make a temporary file");

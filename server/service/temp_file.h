@@ -28,7 +28,10 @@ private:
 /// A file without a name: it is gone with the process, however that ends.
 class TempFile {
 public:
-    /// In `directory`; where that is empty, in $TMPDIR or /tmp. \return what `disk_error` returns.
+    /// Where `create` makes files: `wanted`, or $TMPDIR or /tmp where that is empty.
+    [[nodiscard]] static std::filesystem::path directory_of(const std::filesystem::path& wanted);
+
+    /// In `directory_of(directory)`. \return what `disk_error` returns.
     [[nodiscard]] static Expected<TempFile> create(const std::filesystem::path& directory = {});
 
     ~TempFile();

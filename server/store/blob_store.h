@@ -42,8 +42,9 @@ public:
     /// cost nothing. \return LIMIT_EXCEEDED (the quota, a full disk), UNAVAILABLE.
     [[nodiscard]] virtual Expected<BlobEntry> put(std::span<const Bytes> parts) = 0;
 
-    /// \return CORRUPT for bytes that are not there, or no longer those that were kept; UNAVAILABLE. O(bytes).
-    [[nodiscard]] virtual Expected<std::shared_ptr<const Blob>> get(const std::string& key) const = 0;
+    /// One of this key and size. \return CORRUPT for bytes that are not there, or no longer those that were kept; UNAVAILABLE.
+    /// O(bytes).
+    [[nodiscard]] virtual Expected<std::shared_ptr<const Blob>> get(const BlobEntry& blob) const = 0;
 
     /// The name that `put` would give. O(bytes).
     [[nodiscard]] virtual std::string key_of(std::span<const Bytes> parts) const = 0;
@@ -56,6 +57,9 @@ public:
 
     /// All blobs, by key. \return UNAVAILABLE.
     [[nodiscard]] virtual Expected<std::vector<BlobEntry>> list() const = 0;
+
+    /// How many are put aside. O(those).
+    [[nodiscard]] virtual std::uint64_t aside() const = 0;
 
     /// What all blobs take together, bytes. O(1).
     [[nodiscard]] virtual std::uint64_t bytes() const = 0;

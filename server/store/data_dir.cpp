@@ -68,10 +68,23 @@ Expected<int> lock(const fs::path& directory) {
                  directory.string() + " is the data directory of another vsplitd that runs; use another one", "data_dir"};
 }
 
+bool is_open_to_others(const fs::path& directory) {
+    std::error_code unknown;
+    const fs::perms others = fs::perms::others_read | fs::perms::others_exec;
+    return (fs::status(directory, unknown).permissions() & others) == others;
+}
+
 std::uint64_t size_of(const fs::path& file) {
     std::error_code missing;
     const std::uint64_t size = fs::file_size(file, missing);
     return missing ? 0 : size;
+}
+
+// SQLite makes this file anew, and opens one that it may not write for reading only. \pre the lock is held
+void remove_unusable_shared(const fs::path& index) {
+    const fs::path shared = index.string() + "-shm";
+    std::error_code ignored;
+    if (fs::exists(shared, ignored) && access(shared.c_str(), W_OK) != 0) fs::remove(shared, ignored);
 }
 
 fs::path log_of(const fs::path& index) { return index.string() + "-wal"; }
@@ -123,10 +136,10 @@ Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, 
     std::error_code unknown;
     const bool has_index = fs::exists(directory / kIndexName, unknown);
     if (unknown) return service::disk_error("cannot look into the data directory " + directory.string(), unknown.value());
-    const bool writable = !has_index || access(directory.c_str(), W_OK) == 0;
-    if (!writable)
-        report(service::disk_error("the data directory " + directory.string() + " is served, and nothing new is kept in it")
-                   .message);
+    const bool writable =
+        !has_index || (access(directory.c_str(), W_OK) == 0 && access((directory / kIndexName).c_str(), W_OK) == 0);
+    const Error unwritable =
+        service::disk_error("the data directory " + directory.string() + " is served, and nothing new is kept in it");
     if (Status kinds = require_kinds(directory); !kinds) return kinds.error();
     if (Status made = writable ? make_directories(directory) : Status(Done{}); !made) return made.error();
     const Expected<int> descriptor = lock(directory);
@@ -138,10 +151,15 @@ Expected<DataDir> DataDir::open(const fs::path& directory, std::uint64_t quota, 
         ready = opened.open_archive(quota, report);
     }
     if (!ready) return ready.error();
+    if (!writable) report(unwritable.message);
+    if (is_open_to_others(directory))
+        report("the data directory " + directory.string() +
+               " can be read by other users of this machine; its meshes and sessions are theirs to see");
     return opened;
 }
 
 Expected<std::unique_ptr<SessionIndex>> DataDir::open_index(const Report& report) const {
+    if (writable_) remove_unusable_shared(directory_ / kIndexName);
     if (Status finished = writable_ ? finish_replacement(directory_) : Status(Done{}); !finished) return finished.error();
     const Expected<bool> damaged_log = look_over(directory_, writable_, report);
     if (!damaged_log) return damaged_log.error();
@@ -160,7 +178,7 @@ Status DataDir::open_archive(std::uint64_t quota, const Report& report) {
     Expected<std::unique_ptr<FileBlobStore>> blobs = FileBlobStore::open(directory_ / kBlobsName, quota, writable_);
     if (!blobs) return blobs.error();
     archive_ = std::make_unique<StoredSessions>(*std::move(blobs), *std::move(index), DiskReserve(directory_ / kReserveName),
-                                                quota, report, count_damaged(directory_));
+                                                quota, report, [directory = directory_] { return count_damaged(directory); });
     return Done{};
 }
 

@@ -8,7 +8,7 @@
 namespace vsplit::store {
 
 void DiskReserve::take() const {
-    const int descriptor = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+    const int descriptor = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
     if (descriptor < 0) return;
     const bool taken = posix_fallocate(descriptor, 0, kBytes) == 0;
     ::close(descriptor);

@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <iterator>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +19,8 @@ namespace vsplit::store {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kAside = "aside";
 
 /// Closes at the end of the scope.
 class Descriptor {
@@ -88,15 +92,17 @@ Expected<bool> read_all(int descriptor, std::span<std::byte> room) {
 }
 
 // Read, not mapped: a file that somebody cuts short while it is mapped ends the process by SIGBUS.
-Expected<std::shared_ptr<const Blob>> read_file(const fs::path& place) {
-    const auto corrupt = [&place](const char* what) {
+Expected<std::shared_ptr<const Blob>> read_file(const fs::path& place, std::uint64_t bytes) {
+    const auto corrupt = [&place](const std::string& what) {
         return Error{Cause::kCorrupt, "the data directory: " + place.filename().string() + what, ""};
     };
-    const Descriptor file(place, O_RDONLY);
+    const Descriptor file(place, O_RDONLY | O_NONBLOCK);  // what is no file may be a pipe
     if (!file.open() && errno == ENOENT) return corrupt(" is missing");
     struct stat about {};
     if (!file.open() || fstat(file.number(), &about) != 0) return service::disk_error("cannot open a stored mesh");
     if (!S_ISREG(about.st_mode)) return corrupt(" is not a file");
+    if (static_cast<std::uint64_t>(about.st_size) != bytes)
+        return corrupt(" has " + std::to_string(about.st_size) + " bytes instead of " + std::to_string(bytes));
     const auto blob = std::make_shared<LoadedBlob>(static_cast<std::size_t>(about.st_size));
     const Expected<bool> whole = read_all(file.number(), blob->room());
     if (!whole) return whole.error();
@@ -150,7 +156,7 @@ Expected<BlobEntry> FileBlobStore::put(std::span<const Bytes> parts) {
     const bool there = fs::exists(place_of(blob.key), failed);
     if (failed) return service::disk_error("cannot keep a mesh in the data directory", failed.value());
     if (there) {
-        const Expected<std::shared_ptr<const Blob>> kept = get(blob.key);
+        const Expected<std::shared_ptr<const Blob>> kept = get(blob);
         if (kept) return blob;
         if (kept.error().cause != Cause::kCorrupt) return kept.error();
     }
@@ -198,8 +204,9 @@ Expected<bool> FileBlobStore::write(const std::string& key, std::span<const Byte
     return first;
 }
 
-Expected<std::shared_ptr<const Blob>> FileBlobStore::get(const std::string& key) const {
-    Expected<std::shared_ptr<const Blob>> blob = read_file(place_of(key));
+Expected<std::shared_ptr<const Blob>> FileBlobStore::get(const BlobEntry& entry) const {
+    const std::string& key = entry.key;
+    Expected<std::shared_ptr<const Blob>> blob = read_file(place_of(key), entry.bytes);
     if (!blob) return blob;
     const Bytes bytes = (*blob)->bytes();
     if (key_of({&bytes, 1}) == key) return blob;
@@ -207,7 +214,7 @@ Expected<std::shared_ptr<const Blob>> FileBlobStore::get(const std::string& key)
 }
 
 Status FileBlobStore::put_aside(const std::string& key) {
-    const fs::path aside = directory_ / "aside";
+    const fs::path aside = directory_ / kAside;
     struct stat about {};
     std::error_code failed;
     fs::create_directory(aside, failed);
@@ -225,6 +232,12 @@ Status FileBlobStore::remove(const std::string& key) {
     if (unlink(place.c_str()) != 0) return service::disk_error("cannot remove a stored mesh");
     give_back(static_cast<std::uint64_t>(about.st_size));
     return Done{};
+}
+
+std::uint64_t FileBlobStore::aside() const {
+    std::error_code failed;
+    const fs::directory_iterator files(directory_ / kAside, failed);
+    return failed ? 0 : static_cast<std::uint64_t>(std::distance(begin(files), end(files)));
 }
 
 Expected<std::vector<BlobEntry>> FileBlobStore::list() const {

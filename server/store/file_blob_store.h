@@ -20,9 +20,10 @@ public:
                                                                        bool writable = true);
 
     [[nodiscard]] Expected<BlobEntry> put(std::span<const Bytes> parts) override;
-    [[nodiscard]] Expected<std::shared_ptr<const Blob>> get(const std::string& key) const override;
+    [[nodiscard]] Expected<std::shared_ptr<const Blob>> get(const BlobEntry& entry) const override;
     [[nodiscard]] std::string key_of(std::span<const Bytes> parts) const override;
     [[nodiscard]] Status put_aside(const std::string& key) override;
+    [[nodiscard]] std::uint64_t aside() const override;
     [[nodiscard]] Status remove(const std::string& key) override;
     [[nodiscard]] Expected<std::vector<BlobEntry>> list() const override;
     [[nodiscard]] std::uint64_t bytes() const override;

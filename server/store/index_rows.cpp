@@ -28,6 +28,9 @@ std::string digest_of(const RepresentationRow& row) {
     return digest_of({std::to_string(row.session), std::to_string(row.number), row.item.blob, row.item.info});
 }
 
+// Its number follows from its place.
+std::string digest_of(const JobRow& row) { return digest_of({"job", std::to_string(row.session), row.info}); }
+
 std::string life_of(std::uint64_t number, std::int64_t expires, std::uint64_t made) {
     return digest_of({"life", std::to_string(number), std::to_string(expires), std::to_string(made)});
 }
@@ -57,7 +60,11 @@ RepresentationRow read_representation_row(const Statement& row) {
     return made;
 }
 
-JobRow read_job(const Statement& row) { return {count_at(row, 0), count_at(row, 1), row.bytes(2)}; }
+JobRow read_job(const Statement& row) {
+    JobRow job{count_at(row, 0), count_at(row, 1), row.bytes(2)};
+    job.sound = digest_of(job) == row.bytes(3);
+    return job;
+}
 
 Expected<std::optional<std::int64_t>> read_clock(Database& database) {
     Statement clock = database.prepare("SELECT * FROM clock");

@@ -13,6 +13,7 @@ namespace vsplit::store {
 
 [[nodiscard]] std::string digest_of(const SessionRow& row);
 [[nodiscard]] std::string digest_of(const RepresentationRow& row);
+[[nodiscard]] std::string digest_of(const JobRow& row);
 
 /// Of what changes at every use of a session.
 [[nodiscard]] std::string life_of(std::uint64_t number, std::int64_t expires, std::uint64_t made);

@@ -41,6 +41,7 @@ struct JobRow {
     std::uint64_t number = 0;
     std::uint64_t session = 0;
     std::string info;
+    bool sound = true;  ///< as in SessionRow
 };
 
 /// Everything, in order of numbers.

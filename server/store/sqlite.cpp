@@ -70,6 +70,11 @@ Statement Database::prepare(const char* sql) {
     return {*this, statement};
 }
 
+bool Database::moved() const {
+    int moved = 0;
+    return sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_HAS_MOVED, &moved) == SQLITE_OK && moved != 0;
+}
+
 Error Database::error() const {
     const std::string message = sqlite3_errmsg(handle_.get());
     if (is_full(handle_.get())) {
@@ -123,6 +128,13 @@ Expected<bool> Statement::step() {
 }
 
 Status Statement::run() {
+    if (database_->moved()) {
+        reset();
+        return Error{
+            Cause::kUnavailable,
+            "the data directory's index was moved or deleted while the server runs; nothing is kept until the server starts anew",
+            ""};
+    }
     const Expected<bool> row = step();
     reset();
     if (!row) return row.error();

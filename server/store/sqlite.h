@@ -29,6 +29,12 @@ public:
     [[nodiscard]] std::uint64_t last_row() const { return static_cast<std::uint64_t>(sqlite3_last_insert_rowid(handle_.get())); }
     [[nodiscard]] int changes() const { return sqlite3_changes(handle_.get()); }
 
+    /// Whether it can be written: its file may be read-only, or its header say so.
+    [[nodiscard]] bool writable() const { return sqlite3_db_readonly(handle_.get(), "main") == 0; }
+
+    /// Whether its file is no longer in its place: what is written then is lost with the process.
+    [[nodiscard]] bool moved() const;
+
     /// What went wrong last: LIMIT_EXCEEDED (the disk is full), CORRUPT, UNAVAILABLE.
     [[nodiscard]] Error error() const;
 
@@ -56,7 +62,7 @@ public:
     /// The next row: whether there is one. \return as Database::error.
     [[nodiscard]] Expected<bool> step();
 
-    /// For one that gives no rows. \return as Database::error.
+    /// For one that gives no rows. \return as Database::error; UNAVAILABLE where the database was moved.
     [[nodiscard]] Status run();
 
     /// Ready to be bound and run again.

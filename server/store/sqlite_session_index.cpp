@@ -61,7 +61,12 @@ ALTER TABLE sessions ADD COLUMN life TEXT NOT NULL DEFAULT '';  -- digest of num
 PRAGMA user_version = 2;
 )";
 
-constexpr std::array kSteps{kFirstStep, kSecondStep};
+constexpr const char* kThirdStep = R"(
+ALTER TABLE jobs ADD COLUMN digest TEXT NOT NULL DEFAULT '';  -- of session and info
+PRAGMA user_version = 3;
+)";
+
+constexpr std::array kSteps{kFirstStep, kSecondStep, kThirdStep};
 constexpr auto kVersion = static_cast<std::int64_t>(kSteps.size());
 
 Error no_session() { return {Cause::kNotFound, "the session was deleted in the meantime", "session"}; }
@@ -81,6 +86,19 @@ Status check(Database& database) {
     const std::string told = *row ? statement.bytes(0) : "nothing";
     if (told == "ok") return Done{};
     return Error{Cause::kCorrupt, "the data directory's index: " + told, ""};
+}
+
+// The next session's number must be one.
+Status check_last_number(Database& database) {
+    constexpr std::int64_t kMost = std::int64_t{1} << 53;
+    const Expected<std::int64_t> tables =
+        one_number(database, "SELECT count(*) FROM sqlite_schema WHERE name = 'sqlite_sequence'");
+    if (!tables) return tables.error();
+    if (*tables == 0) return Done{};
+    const Expected<std::int64_t> last = one_number(database, "SELECT max(seq) FROM sqlite_sequence");
+    if (!last) return last.error();
+    if (*last >= 0 && *last < kMost) return Done{};
+    return Error{Cause::kCorrupt, "the data directory's index: the last number is " + std::to_string(*last), ""};
 }
 
 Expected<std::set<std::string>> schema_of(Database& database) {
@@ -135,10 +153,16 @@ Status SqliteSessionIndex::prepare_schema(bool writable) {
         if (!writable) break;
         if (Status set = database_.run(setting); !set) return set;
     }
+    if (writable && !database_.writable())
+        return Error{Cause::kCorrupt, "the data directory's index: its header says that it cannot be written", ""};
     if (Status sound = check(database_); !sound) return sound;
+    if (Status number = check_last_number(database_); !number) return number;
     const Expected<std::int64_t> version = one_number(database_, "PRAGMA user_version");
     if (!version) return version.error();
     if (*version == kVersion) return check_schema(database_);
+    // A later one has another schema; what has this one and says otherwise is damaged.
+    if (*version > kVersion && check_schema(database_))
+        return Error{Cause::kCorrupt, "the data directory's index: it says that its version is " + std::to_string(*version), ""};
     if (*version > kVersion) {
         return Error{Cause::kUnsupported,
                      "the data directory's index has version " + std::to_string(*version) +
@@ -160,11 +184,12 @@ Status SqliteSessionIndex::take_steps(std::int64_t version) {
     for (std::size_t step = static_cast<std::size_t>(version); step < kSteps.size(); ++step) {
         if (Status made = database_.run(kSteps[step]); !made) return made;
     }
-    if (Status done = sign(); !done) return done;
+    // Not more than has none: what is damaged is not to be taken for sound.
+    if (Status done = version < 2 ? sign() : sign_jobs(); !done) return done;
     return transaction.commit();
 }
 
-/// Gives digests to what a version that had none has written. \pre a transaction is open.
+/// Gives digests to what versions that had none have written. \pre a transaction is open.
 Status SqliteSessionIndex::sign() {
     const Expected<std::int64_t> now = one_number(database_, "SELECT now FROM clock");
     if (!now) return now.error();
@@ -180,6 +205,19 @@ Status SqliteSessionIndex::sign() {
     }
     for (const SessionRow& session : sessions) {
         if (Status set = set_life(session.number, session.expires, session.made); !set) return set;
+    }
+    return sign_jobs();
+}
+
+// \pre a transaction is open.
+Status SqliteSessionIndex::sign_jobs() {
+    std::vector<JobRow> jobs;
+    Status read = load_rows("SELECT * FROM jobs", [&jobs](const Statement& row) { jobs.push_back(read_job(row)); });
+    if (!read) return read;
+    for (const JobRow& job : jobs) {
+        const std::string digest = digest_of(job);
+        Status set = database_.prepare("UPDATE jobs SET digest = ? WHERE number = ?").bind_text(digest).bind(job.number).run();
+        if (!set) return set;
     }
     return Done{};
 }
@@ -265,6 +303,16 @@ Status SqliteSessionIndex::insert(const RepresentationRow& representation) {
         .run();
 }
 
+// Nothing where there is no such session. \pre lock held.
+Status SqliteSessionIndex::insert(const JobRow& job) {
+    const std::string digest = digest_of(job);
+    return database_.prepare("INSERT INTO jobs (session, info, digest) SELECT number, ?, ? FROM sessions WHERE number = ?")
+        .bind_blob(job.info)
+        .bind_text(digest)
+        .bind(job.session)
+        .run();
+}
+
 Status SqliteSessionIndex::take_over(const IndexContents& contents) {
     const std::lock_guard lock(mutex_);
     Transaction transaction(database_);
@@ -275,9 +323,8 @@ Status SqliteSessionIndex::take_over(const IndexContents& contents) {
     for (const RepresentationRow& representation : contents.representations) {
         if (Status added = insert(representation); !added) return added;
     }
-    Statement job = database_.prepare("INSERT INTO jobs (session, info) VALUES (?, ?)");
     for (const JobRow& row : contents.jobs) {
-        if (Status added = job.bind(row.session).bind_blob(row.info).run(); !added) return added;
+        if (Status added = insert(row); !added) return added;
     }
     Status clock = contents.now ? set_clock(*contents.now) : database_.run("DELETE FROM clock");
     if (!clock) return clock;
@@ -361,8 +408,7 @@ Status SqliteSessionIndex::note_time(std::int64_t now, const std::vector<std::pa
 
 Expected<std::uint64_t> SqliteSessionIndex::add_job(std::uint64_t session, const std::string& info) {
     const std::lock_guard lock(mutex_);
-    Statement insert = database_.prepare("INSERT INTO jobs (session, info) SELECT number, ? FROM sessions WHERE number = ?");
-    if (Status done = insert.bind_blob(info).bind(session).run(); !done) return done.error();
+    if (Status done = insert(JobRow{0, session, info}); !done) return done.error();
     if (database_.changes() == 0) return no_session();
     return database_.last_row();
 }

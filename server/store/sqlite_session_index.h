@@ -44,11 +44,13 @@ private:
     [[nodiscard]] Status prepare_schema(bool writable);
     [[nodiscard]] Status take_steps(std::int64_t version);
     [[nodiscard]] Status sign();
+    [[nodiscard]] Status sign_jobs();
     [[nodiscard]] Status set_clock(std::int64_t now);
     [[nodiscard]] Status set_life(std::uint64_t session, std::int64_t expires, std::uint64_t made);
     [[nodiscard]] Status load_rows(const char* sql, const std::function<void(const Statement&)>& take);
     [[nodiscard]] Status insert(const SessionRow& session);
     [[nodiscard]] Status insert(const RepresentationRow& representation);
+    [[nodiscard]] Status insert(const JobRow& job);
     [[nodiscard]] Expected<SessionRow> find_session(std::uint64_t number);
     [[nodiscard]] Status for_each(const char* sql, const std::vector<std::uint64_t>& numbers);
 

@@ -23,11 +23,11 @@ std::int64_t since_1970(std::chrono::system_clock::time_point time) {
 
 /// What reads a blob, and tells the operator where it cannot. `read(bytes)` returns an Expected<std::shared_ptr<const Value>>.
 template <class Value, class Read>
-typename Kept<Value>::Load loader(std::shared_ptr<BlobStore> blobs, std::string key, std::shared_ptr<const Report> report,
+typename Kept<Value>::Load loader(std::shared_ptr<BlobStore> blobs, BlobEntry entry, std::shared_ptr<const Report> report,
                                   Read read) {
-    return [blobs = std::move(blobs), key = std::move(key), report = std::move(report),
+    return [blobs = std::move(blobs), entry = std::move(entry), report = std::move(report),
             read = std::move(read)]() -> Expected<std::shared_ptr<const Value>> {
-        const Expected<std::shared_ptr<const Blob>> blob = blobs->get(key);
+        const Expected<std::shared_ptr<const Blob>> blob = blobs->get(entry);
         Expected<std::shared_ptr<const Value>> value =
             blob ? read((*blob)->bytes()) : Expected<std::shared_ptr<const Value>>(blob.error());
         if (!value) (*report)(value.error().message);
@@ -70,13 +70,13 @@ std::vector<std::string> keys_of(const std::vector<BlobEntry>& blobs) {
 }  // namespace
 
 StoredSessions::StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, DiskReserve reserve,
-                               std::uint64_t quota, Report report, std::uint32_t damaged)
+                               std::uint64_t quota, Report report, IndexCount damaged)
     : blobs_(std::move(blobs)),
       index_(std::move(index)),
       reserve_(std::move(reserve)),
       quota_(quota),
       report_(std::make_shared<const Report>(std::move(report))),
-      aside_(damaged) {}
+      damaged_indices_(std::move(damaged)) {}
 
 Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
     const Expected<IndexContents> contents = index_->load();
@@ -99,8 +99,14 @@ Expected<service::Restored> StoredSessions::restore(MemoryBudget& budget) {
     }
     for (const JobRow& row : contents->jobs) {
         const auto record = records.find(row.session);
+        if (record == records.end()) continue;
         Expected<service::MethodRequest> request = read_request(row.info);
-        if (record != records.end() && request) record->second.unfinished.push_back({row.number, *std::move(request)});
+        if (row.sound && request) {
+            record->second.unfinished.push_back({row.number, *std::move(request)});
+        } else {
+            (*report_)("session " + record->second.id +
+                       ": which method of it was cut off is not as it was written, and is not told");
+        }
     }
     service::Restored restored{{}, contents->last_session, milliseconds(contents->now.value_or(0)), {}};
     if (!contents->now) forget_expiry(records);
@@ -138,7 +144,7 @@ Expected<service::SessionRecord> StoredSessions::recall(const SessionRow& row, c
     Expected<ToldSource> told = read_source(row.source.info);
     if (!told) return told.error();
     if (Status there = require_blob(blobs, row.source.blob, told->blob_bytes); !there) return there.error();
-    auto load = loader<TriangleMesh>(blobs_, row.source.blob, report_, mesh_reader(std::move(told->sets)));
+    auto load = loader<TriangleMesh>(blobs_, {row.source.blob, told->blob_bytes}, report_, mesh_reader(std::move(told->sets)));
     auto mesh = Kept<TriangleMesh>::elsewhere(std::move(load), told->memory, budget);
     record.source = std::make_shared<const service::SourceMesh>(service::SourceMesh{std::move(mesh), std::move(told->report)});
     return record;
@@ -150,7 +156,7 @@ Expected<std::shared_ptr<const service::Representation>> StoredSessions::recall(
     Expected<ToldRepresentation> told = read_representation(row.item.info);
     if (!told) return told.error();
     if (Status there = require_blob(blobs, row.item.blob, told->blob_bytes); !there) return there.error();
-    auto load = loader<Levels>(blobs_, row.item.blob, report_, levels_reader(budget));
+    auto load = loader<Levels>(blobs_, {row.item.blob, told->blob_bytes}, report_, levels_reader(budget));
     return std::make_shared<const service::Representation>(std::move(told->id), std::move(told->asked), std::move(told->figures),
                                                            told->extent,
                                                            Kept<Levels>::elsewhere(std::move(load), told->memory, budget));
@@ -183,23 +189,23 @@ void StoredSessions::put_unknown_aside(const std::vector<std::string>& blobs) {
                " stored meshes and representations are in no session of the index; they are put aside, not deleted");
 }
 
-Expected<StoredItem> StoredSessions::keep_source(const service::SourceMesh& source) {
+Expected<StoredSessions::KeptItem> StoredSessions::keep_source(const service::SourceMesh& source) {
     const Expected<std::shared_ptr<const TriangleMesh>> mesh = source.mesh->get();
     if (!mesh) return mesh.error();
     const MeshBlob encoded(**mesh);
     const Expected<BlobEntry> blob = put(encoded.parts());
     if (!blob) return blob.error();
-    return StoredItem{blob->key, write_source(source, **mesh, blob->bytes)};
+    return KeptItem{{blob->key, write_source(source, **mesh, blob->bytes)}, *blob};
 }
 
-Expected<StoredItem> StoredSessions::keep_levels(const service::Representation& representation) {
+Expected<StoredSessions::KeptItem> StoredSessions::keep_levels(const service::Representation& representation) {
     const Expected<std::shared_ptr<const Levels>> levels = representation.levels().get();
     if (!levels) return levels.error();
     const std::string file = encode_mrr({(*levels)->mrr(), representation.figures().faces, {}});
     const Bytes bytes = std::as_bytes(std::span(file));
     const Expected<BlobEntry> blob = put({&bytes, 1});
     if (!blob) return blob.error();
-    return StoredItem{blob->key, write_representation(representation, blob->bytes)};
+    return KeptItem{{blob->key, write_representation(representation, blob->bytes)}, *blob};
 }
 
 Expected<BlobEntry> StoredSessions::put(std::span<const Bytes> parts) {
@@ -216,29 +222,31 @@ Status StoredSessions::add(const service::SessionRecord& session) {
                    session.expires.value_or(milliseconds(0)).count(),
                    session.made,
                    {}};
+    BlobEntry blob;
     if (session.source) {
-        Expected<StoredItem> item = keep_source(*session.source);
+        Expected<KeptItem> item = keep_source(*session.source);
         if (!item) return item.error();
-        row.source = *std::move(item);
+        row.source = std::move(item->row);
+        blob = std::move(item->blob);
     }
     if (Status added = index_->add_session(row); !added) return added;
-    if (session.source) can_be_loaded(*session.source, row.source.blob);
+    if (session.source) can_be_loaded(*session.source, blob);
     return Done{};
 }
 
 Status StoredSessions::set_source(std::uint64_t session, const service::SourceMesh& source) {
     {
         const std::shared_lock lock(collecting_);
-        const Expected<StoredItem> item = keep_source(source);
+        const Expected<KeptItem> item = keep_source(source);
         if (!item) return item.error();
-        if (Status set = index_->set_source(session, *item); !set) return set;
+        if (Status set = index_->set_source(session, item->row); !set) return set;
         can_be_loaded(source, item->blob);
     }
     collect();
     return Done{};
 }
 
-void StoredSessions::can_be_loaded(const service::SourceMesh& source, const std::string& blob) const {
+void StoredSessions::can_be_loaded(const service::SourceMesh& source, const BlobEntry& blob) const {
     const Expected<std::shared_ptr<const TriangleMesh>> mesh = source.mesh->get();
     if (mesh) source.mesh->can_be_loaded(loader<TriangleMesh>(blobs_, blob, report_, mesh_reader((*mesh)->sets)));
 }
@@ -246,9 +254,9 @@ void StoredSessions::can_be_loaded(const service::SourceMesh& source, const std:
 Status StoredSessions::add_representation(std::uint64_t session, const service::Representation& representation,
                                           std::uint64_t made) {
     const std::shared_lock lock(collecting_);
-    const Expected<StoredItem> item = keep_levels(representation);
+    const Expected<KeptItem> item = keep_levels(representation);
     if (!item) return item.error();
-    if (Status added = index_->add_representation({session, made, *item}, made); !added) return added;
+    if (Status added = index_->add_representation({session, made, item->row}, made); !added) return added;
     MemoryBudget& budget = representation.levels().budget();
     representation.levels().can_be_loaded(loader<Levels>(blobs_, item->blob, report_, levels_reader(budget)));
     return Done{};
@@ -286,7 +294,9 @@ Status StoredSessions::note_time(milliseconds now, const std::vector<std::pair<s
     rows.reserve(expire.size());
     for (const auto& [session, time] : expire) rows.emplace_back(session, time.count());
     Status noted = index_->note_time(now.count(), rows);
-    writable_ = noted.has_value();
+    if (const bool was = writable_.exchange(noted.has_value()); was != noted.has_value())
+        (*report_)(noted ? "the data directory can be written to again"
+                         : "nothing can be written to the data directory, what is there is served: " + noted.error().message);
     return noted;
 }
 
@@ -296,6 +306,8 @@ Expected<std::uint64_t> StoredSessions::add_job(std::uint64_t session, const ser
 
 Status StoredSessions::remove_jobs(const std::vector<std::uint64_t>& jobs) { return index_->remove_jobs(jobs); }
 
-service::ArchiveUse StoredSessions::use() const { return {blobs_->bytes(), quota_, aside_, writable_}; }
+service::ArchiveUse StoredSessions::use() const {
+    return {blobs_->bytes(), quota_, aside_ + damaged_indices_(), blobs_->aside(), writable_};
+}
 
 }  // namespace vsplit::store

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -23,9 +24,12 @@ namespace vsplit::store {
 /// removes.
 class StoredSessions final : public service::SessionArchive {
 public:
-    /// `quota`: bytes of disk; `damaged`: indices that were put aside. Both are for `use` alone.
+    /// How many indices are put aside.
+    using IndexCount = std::function<std::uint32_t()>;
+
+    /// `quota`: bytes of disk. It and `damaged` are for `use` alone.
     StoredSessions(std::shared_ptr<BlobStore> blobs, std::unique_ptr<SessionIndex> index, DiskReserve reserve,
-                   std::uint64_t quota, Report report, std::uint32_t damaged);
+                   std::uint64_t quota, Report report, IndexCount damaged);
 
     /// A session that is damaged is set aside and reported; the others are served.
     [[nodiscard]] Expected<service::Restored> restore(service::MemoryBudget& budget) override;
@@ -44,8 +48,14 @@ public:
 private:
     using Blobs = std::vector<BlobEntry>;
 
-    [[nodiscard]] Expected<StoredItem> keep_source(const service::SourceMesh& source);
-    [[nodiscard]] Expected<StoredItem> keep_levels(const service::Representation& representation);
+    /// What was kept: for the index, and where it is.
+    struct KeptItem {
+        StoredItem row;
+        BlobEntry blob;
+    };
+
+    [[nodiscard]] Expected<KeptItem> keep_source(const service::SourceMesh& source);
+    [[nodiscard]] Expected<KeptItem> keep_levels(const service::Representation& representation);
     [[nodiscard]] Expected<service::SessionRecord> recall(const SessionRow& row, const Blobs& blobs,
                                                           service::MemoryBudget& budget) const;
     [[nodiscard]] Expected<std::shared_ptr<const service::Representation>> recall(const RepresentationRow& row,
@@ -55,7 +65,7 @@ private:
     void forget_expiry(std::map<std::uint64_t, service::SessionRecord>& sessions) const;
     void judge(const SessionRow& row, const Error* damage);
     void put_unknown_aside(const std::vector<std::string>& blobs);
-    void can_be_loaded(const service::SourceMesh& source, const std::string& blob) const;
+    void can_be_loaded(const service::SourceMesh& source, const BlobEntry& blob) const;
     void collect();
 
     const std::shared_ptr<BlobStore> blobs_;  // also of what loads
@@ -63,7 +73,8 @@ private:
     const DiskReserve reserve_;
     const std::uint64_t quota_;
     const std::shared_ptr<const Report> report_;
-    std::atomic<std::uint32_t> aside_;  // with indices, whose sessions nobody can count
+    std::atomic<std::uint32_t> aside_{0};
+    const IndexCount damaged_indices_;
     std::atomic<bool> writable_{true};
     std::mutex judging_;
     std::set<std::uint64_t> damaged_;  // sessions among aside_

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <string>
@@ -42,18 +43,18 @@ protected:
 
 TEST_F(FileBlobStoreTest, GivesBackWhatItKeepsAlsoAfterItIsOpenedAnew) {
     const std::string large(1'000'000, 'x');
-    std::string key;
+    BlobEntry blob;
     {
         const auto store = open();
         const std::vector<Bytes> parts{bytes_of("head"), bytes_of(large)};
-        const auto blob = store->put(parts);
-        ASSERT_TRUE(blob) << blob.error().message;
-        EXPECT_EQ(blob->bytes, 1'000'004U);
-        key = blob->key;
+        const auto kept = store->put(parts);
+        ASSERT_TRUE(kept) << kept.error().message;
+        EXPECT_EQ(kept->bytes, 1'000'004U);
+        blob = *kept;
     }
     const auto store = open();
     EXPECT_EQ(store->bytes(), 1'000'004U);
-    const auto found = store->get(key);
+    const auto found = store->get(blob);
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(text_of((*found)->bytes()), "head" + large);
 }
@@ -71,7 +72,7 @@ TEST_F(FileBlobStoreTest, ABlobThatCannotBeReadJustNowStays) {
     ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
     ASSERT_FALSE(again);
     EXPECT_THAT(again.error().message, HasSubstr("Too many open files"));
-    EXPECT_TRUE(store->get(kept->key));
+    EXPECT_TRUE(store->get(*kept));
 }
 
 TEST_F(FileBlobStoreTest, TheSameBytesAreKeptOnce) {
@@ -86,41 +87,44 @@ TEST_F(FileBlobStoreTest, TheSameBytesAreKeptOnce) {
 
 TEST_F(FileBlobStoreTest, ABlobOutlivesItsRemoval) {
     const auto store = open();
-    const auto key = put(*store, "gone").operator*().key;
-    const auto held = store->get(key);
+    const BlobEntry blob = *put(*store, "gone");
+    const std::string& key = blob.key;
+    const auto held = store->get(blob);
     ASSERT_TRUE(held);
     ASSERT_TRUE(store->remove(key));
     ASSERT_TRUE(store->remove(key)) << "it is removed already";
     EXPECT_EQ(text_of((*held)->bytes()), "gone");
     EXPECT_EQ(store->bytes(), 0U);
-    EXPECT_EQ(store->get(key).error().cause, Cause::kCorrupt);
+    EXPECT_EQ(store->get(blob).error().cause, Cause::kCorrupt);
 }
 
 TEST_F(FileBlobStoreTest, ChangedAndShortenedBytesAreNotServed) {
     const auto store = open();
-    const auto key = put(*store, "as it was").operator*().key;
+    const BlobEntry blob = *put(*store, "as it was");
+    const std::string& key = blob.key;
     std::ofstream(file_of(key), std::ios::in | std::ios::out).write("AS", 2);
-    const auto changed = store->get(key);
+    const auto changed = store->get(blob);
     ASSERT_FALSE(changed);
     EXPECT_EQ(changed.error().cause, Cause::kCorrupt);
     EXPECT_THAT(changed.error().message, HasSubstr(key));
     std::filesystem::resize_file(file_of(key), 3);
-    EXPECT_EQ(store->get(key).error().cause, Cause::kCorrupt);
+    EXPECT_EQ(store->get(blob).error().cause, Cause::kCorrupt);
     std::filesystem::resize_file(file_of(key), 0);
-    EXPECT_EQ(store->get(key).error().cause, Cause::kCorrupt);
+    EXPECT_EQ(store->get(blob).error().cause, Cause::kCorrupt);
     ASSERT_TRUE(put(*store, "as it was")) << "a damaged one is written anew";
-    EXPECT_TRUE(store->get(key));
+    EXPECT_TRUE(store->get(blob));
     std::ofstream(file_of(key), std::ios::in | std::ios::out).write("AS", 2);
     ASSERT_TRUE(put(*store, "as it was")) << "also where its size is right";
-    EXPECT_TRUE(store->get(key));
+    EXPECT_TRUE(store->get(blob));
     EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "blobs" / "aside" / (key + ".blob"))) << "the damaged one is kept";
 }
 
 TEST_F(FileBlobStoreTest, ABlobThatIsReadAlreadyMayBeCutShort) {
     const auto store = open();
     const std::string large(1'000'000, 'x');
-    const auto key = put(*store, large).operator*().key;
-    const auto held = store->get(key);
+    const BlobEntry blob = *put(*store, large);
+    const std::string& key = blob.key;
+    const auto held = store->get(blob);
     ASSERT_TRUE(held) << held.error().message;
     std::filesystem::resize_file(file_of(key), 0);
     EXPECT_EQ(text_of((*held)->bytes()), large);
@@ -128,14 +132,34 @@ TEST_F(FileBlobStoreTest, ABlobThatIsReadAlreadyMayBeCutShort) {
 
 TEST_F(FileBlobStoreTest, ADirectoryInABlobsPlaceIsDamageLikeAnyOther) {
     const auto store = open();
-    const auto key = put(*store, "a file").operator*().key;
+    const BlobEntry blob = *put(*store, "a file");
+    const std::string& key = blob.key;
     std::filesystem::remove(file_of(key));
     std::filesystem::create_directory(file_of(key));
-    EXPECT_EQ(store->get(key).error().cause, Cause::kCorrupt);
+    EXPECT_EQ(store->get(blob).error().cause, Cause::kCorrupt);
     EXPECT_TRUE(store->list()->empty());
     ASSERT_TRUE(put(*store, "a file"));
-    EXPECT_TRUE(store->get(key));
+    EXPECT_TRUE(store->get(blob));
     EXPECT_EQ(open()->bytes(), 6U);
+}
+
+TEST_F(FileBlobStoreTest, APipeInABlobsPlaceIsNotWaitedFor) {
+    const auto store = open();
+    const BlobEntry blob = *put(*store, "a file");
+    std::filesystem::remove(file_of(blob.key));
+    ASSERT_EQ(mkfifo(file_of(blob.key).c_str(), 0600), 0);
+    EXPECT_EQ(store->get(blob).error().cause, Cause::kCorrupt);
+    ASSERT_TRUE(put(*store, "a file"));
+    EXPECT_TRUE(store->get(blob));
+    EXPECT_EQ(store->aside(), 1U);
+}
+
+// Otherwise whoever makes a file larger has all of it read into memory.
+TEST_F(FileBlobStoreTest, ABlobThatGrewIsNotRead) {
+    const auto store = open();
+    const BlobEntry blob = *put(*store, "a file");
+    std::filesystem::resize_file(file_of(blob.key), std::uintmax_t{1} << 40);
+    EXPECT_THAT(store->get(blob).error().message, HasSubstr("has 1099511627776 bytes instead of 6"));
 }
 
 TEST_F(FileBlobStoreTest, APlaceThatCannotBeLookedAtIsRefusedWithoutItsPath) {
@@ -151,9 +175,10 @@ TEST_F(FileBlobStoreTest, APlaceThatCannotBeLookedAtIsRefusedWithoutItsPath) {
 
 TEST_F(FileBlobStoreTest, WhatIsPutAsideIsThereAndNotServed) {
     const auto store = open();
-    const auto key = put(*store, "perhaps all that is left").operator*().key;
+    const BlobEntry blob = *put(*store, "perhaps all that is left");
+    const std::string& key = blob.key;
     ASSERT_TRUE(store->put_aside(key));
-    EXPECT_FALSE(store->get(key));
+    EXPECT_FALSE(store->get(blob));
     EXPECT_TRUE(store->list()->empty());
     EXPECT_EQ(store->bytes(), 0U);
     EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "blobs" / "aside" / (key + ".blob")));
@@ -190,7 +215,7 @@ TEST_F(FileBlobStoreTest, ThreadsPutTheSameAndOthers) {
                 const std::string text = "blob " + std::to_string(i);
                 const auto blob = put(*store, text);
                 ASSERT_TRUE(blob) << blob.error().message;
-                EXPECT_EQ(text_of((*store->get(blob->key))->bytes()), text);
+                EXPECT_EQ(text_of((*store->get(*blob))->bytes()), text);
             }
         });
     }

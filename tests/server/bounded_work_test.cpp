@@ -57,6 +57,30 @@ TEST(BoundedWorkTest, AMeshThatMemoryHasNoRoomForIsRefused) {
     EXPECT_TRUE(create_session(server.stub(), file_of(cube())).status.ok());
 }
 
+/// A polygon of so many corners at `corners` positions that one face takes a byte of the file.
+std::string fan(std::uint32_t corners) {
+    std::string file =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uint uchar vertex_indices\nend_header\n";
+    const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    file.append(reinterpret_cast<const char*>(positions), sizeof positions);
+    file.append(reinterpret_cast<const char*>(&corners), sizeof corners);
+    for (std::uint32_t i = 0; i < corners; ++i) file += static_cast<char>(i == 0 ? 0 : 1 + i % 2);
+    return file;
+}
+
+// Its size says little of its faces: a hundred thousand of 70 bytes each are 7 MB.
+TEST(BoundedWorkTest, APolygonOfManyCornersIsRefusedLikeItsFaces) {
+    service::ServiceOptions options = small_server();
+    options.limits.memory_bytes = 4 << 20;
+    TestServer server(options);
+    const Reply<v1::Session> refused = create_session(server.stub(), fan(100'000));
+    EXPECT_EQ(refused.status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+    EXPECT_THAT(refused.status.error_message(), HasSubstr("max_memory_bytes"));
+    const Reply<v1::Session> read = create_session(server.stub(), fan(20'000));
+    EXPECT_THAT(read.status.error_message(), ::testing::Not(HasSubstr("max_")));
+}
+
 TEST(BoundedWorkTest, FilesThatMemoryHasNoRoomForAreRefused) {
     service::ServiceOptions options = small_server();
     options.limits.memory_bytes = 3 << 20;

@@ -21,10 +21,14 @@ using ::testing::HasSubstr;
 
 class DataDirTest : public ::testing::Test {
 protected:
+    DataDirTest() : umask_(umask(077)) {}  // as the server has it
+    ~DataDirTest() override { umask(umask_); }
+
     Expected<DataDir> open() {
         return DataDir::open(directory_, 0, [this](const std::string& message) { told_ += message + '\n'; });
     }
 
+    mode_t umask_;
     test::TempDirectory scratch_;
     std::filesystem::path directory_ = scratch_.path() / "data" / "vsplit";
     std::string told_;
@@ -219,14 +223,60 @@ TEST_F(DataDirTest, ALaterVersionIsLeftAlone) {
     ASSERT_TRUE(open());
     {
         auto database = Database::open(directory_ / "sessions.db");
-        ASSERT_TRUE(database && database->run("PRAGMA user_version = 3"));
+        ASSERT_TRUE(database && database->run("ALTER TABLE sessions ADD COLUMN later TEXT; PRAGMA user_version = 4"));
     }
     const auto opened = open();
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().cause, Cause::kUnsupported);
-    EXPECT_THAT(opened.error().message, HasSubstr("has version 3"));
+    EXPECT_THAT(opened.error().message, HasSubstr("has version 4"));
     EXPECT_EQ(told_, "");
     EXPECT_FALSE(std::filesystem::exists(directory_ / "damaged-1"));
+}
+
+TEST_F(DataDirTest, ANumberOfAVersionThatChangedIsDamage) {
+    ASSERT_TRUE(open());
+    ASSERT_TRUE((*Database::open(directory_ / "sessions.db")).run("PRAGMA user_version = 16777219"));
+    ASSERT_TRUE(open());
+    EXPECT_THAT(told_, HasSubstr("says that its version is 16777219; put aside untouched"));
+}
+
+TEST_F(DataDirTest, ALastNumberThatChangedIsDamage) {
+    ASSERT_TRUE(open());
+    ASSERT_TRUE((*Database::open(directory_ / "sessions.db"))
+                    .run("INSERT INTO sqlite_sequence VALUES ('sessions', 9223372036854775807)"));
+    const auto opened = open();
+    ASSERT_TRUE(opened) << opened.error().message;
+    EXPECT_THAT(told_, HasSubstr("the last number is 9223372036854775807; put aside untouched"));
+}
+
+TEST_F(DataDirTest, AnIndexThatSaysItCannotBeWrittenIsDamage) {
+    ASSERT_TRUE(open());
+    {
+        std::fstream file(directory_ / "sessions.db", std::ios::in | std::ios::out | std::ios::binary);
+        file.seekp(18);
+        file.put('\3');
+    }
+    ASSERT_TRUE(open());
+    EXPECT_THAT(told_, HasSubstr("put aside untouched"));
+    EXPECT_TRUE((*SqliteSessionIndex::open(directory_ / "sessions.db"))->add_loose("blob"));
+}
+
+TEST_F(DataDirTest, AnIndexThatIsMovedAwayKeepsNothingInSilence) {
+    ASSERT_TRUE(open());
+    const auto index = *SqliteSessionIndex::open(directory_ / "sessions.db");
+    ASSERT_TRUE(index->add_loose("blob"));
+    std::filesystem::rename(directory_ / "sessions.db", directory_ / "away");
+    const Status kept = index->add_loose("another");
+    ASSERT_FALSE(kept);
+    EXPECT_EQ(kept.error().cause, Cause::kUnavailable);
+    EXPECT_THAT(kept.error().message, HasSubstr("was moved or deleted"));
+}
+
+TEST_F(DataDirTest, OneThatOthersCanReadIsTold) {
+    ASSERT_TRUE(open());
+    std::filesystem::permissions(directory_, std::filesystem::perms(0755));
+    ASSERT_TRUE(open());
+    EXPECT_THAT(told_, HasSubstr("can be read by other users"));
 }
 
 TEST_F(DataDirTest, AnIndexThatLostARowOfItsPagesIsDamaged) {

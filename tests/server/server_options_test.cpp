@@ -108,7 +108,7 @@ TEST_F(ServerOptionsTest, RefusesWhatIsNoNumberOfItsRangeWhereverItComes) {
              Wrong{"max-memory-bytes", wholes, "a whole number from 0 to 18446744073709551615"},
              Wrong{"max-disk-bytes", wholes, "a whole number from 0 to 18446744073709551615"},
              Wrong{"max-connections", wholes, "a whole number from 1 to 18446744073709551615"},
-             Wrong{"max-message-bytes", wholes, "a whole number from 65536 to 1073741824"},
+             Wrong{"max-message-bytes", wholes, "a whole number from 524288 to 1073741824"},
              Wrong{"session-ttl", wholes, "a whole number from 1 to 3162240000"},
              Wrong{"drain", wholes, "a whole number from 0 to 86400"},
          }) {

@@ -408,7 +408,8 @@ TEST_F(StoredSessionsTest, AnIndexOfVersion1IsTakenOver) {
     {
         auto index = *Database::open(scratch_.path() / "sessions.db");
         ASSERT_TRUE(
-            index.run("ALTER TABLE sessions DROP COLUMN life; ALTER TABLE clock DROP COLUMN digest; PRAGMA user_version = 1"));
+            index.run("ALTER TABLE sessions DROP COLUMN life; ALTER TABLE clock DROP COLUMN digest; ALTER TABLE jobs DROP COLUMN "
+                      "digest; PRAGMA user_version = 1"));
     }
     for (int restart = 0; restart < 2; ++restart) {
         ServerRun run(scratch_.path(), memory_);

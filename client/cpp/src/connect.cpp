@@ -45,21 +45,35 @@ std::shared_ptr<grpc::Channel> create_channel(const std::string& target, const C
     constexpr int kFrame = 1 << 20, kLookahead = 4 << 20;
     arguments.SetInt(GRPC_ARG_HTTP2_MAX_FRAME_SIZE, kFrame);
     arguments.SetInt(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, kLookahead);
-    // A connection that broke is tried again soon: who waits holds half a stream.
-    constexpr int kFirstMs = 50, kLongestMs = 2000;
+    // A connection that broke is tried again soon: who waits holds half a stream. (What gRPC calls the least backoff is what one
+    // attempt has for TCP, TLS and HTTP/2's first words: round trips, not a pause.)
+    constexpr int kFirstMs = 50, kLongestMs = 2000, kAttemptMs = 20'000;
     arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kFirstMs);
-    arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, kFirstMs);
+    arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, kAttemptMs);
     arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kLongestMs);
     return grpc::experimental::CreateCustomChannelWithInterceptors(target, credentials, arguments, call_marks(options));
 }
 
+/// What may be the matter where somebody listens, and does not speak as the client does.
+std::string advice(const std::string& reason, const TlsOptions& tls) {
+    const auto tells = [&reason](std::string_view words) { return reason.find(words) != std::string::npos; };
+    if (tells("ALPN")) return "; that may be the server's port for HTTP, and not the one for gRPC";
+    if (!tells("losed") && !tells("andshake") && !tells("SSL") && !tells("no answer")) return "";
+    if (tls.ca.empty()) return "; a server with TLS wants tls_ca, and a port for HTTP does not speak gRPC";
+    if (tells("wrong version number")) return "; the server may have no TLS: leave tls_ca out";
+    if (tells("CERTIFICATE_VERIFY_FAILED") || tells("certificate verify failed"))
+        return "; tls_ca did not sign the server's certificate, or it is for another name";
+    return tls.cert.empty() ? "; the server may want a client's certificate, tls_cert and tls_key"
+                            : "; the server may not take this client's certificate, tls_cert";
+}
+
 /// Why a channel does not connect: only a call is told.
-Error unreachable(const std::shared_ptr<grpc::Channel>& channel, const std::string& target) {
+Error unreachable(const std::shared_ptr<grpc::Channel>& channel, const std::string& target, const TlsOptions& tls) {
     Call call({std::chrono::milliseconds(200), {}});
     v1::ListSessionsResponse response;
     const grpc::Status status = v1::Meshing::NewStub(channel)->ListSessions(call.context(), v1::ListSessionsRequest(), &response);
     const std::string reason = status.error_code() == grpc::StatusCode::UNAVAILABLE ? status.error_message() : "no answer";
-    return {Cause::kUnavailable, "no vsplit server can be reached at " + target + ": " + reason, "server"};
+    return {Cause::kUnavailable, "no vsplit server can be reached at " + target + ": " + reason + advice(reason, tls), "server"};
 }
 
 }  // namespace
@@ -74,7 +88,7 @@ Expected<std::shared_ptr<grpc::Channel>> open_channel(const std::string& target,
         const grpc_connectivity_state state = channel->GetState(true);
         if (state == GRPC_CHANNEL_READY) return channel;
         if (options.stop.stop_requested()) return ExecutionContext::cancelled_error();
-        if (state == GRPC_CHANNEL_TRANSIENT_FAILURE || Clock::now() >= deadline) return unreachable(channel, target);
+        if (state == GRPC_CHANNEL_TRANSIENT_FAILURE || Clock::now() >= deadline) return unreachable(channel, target, options.tls);
         // In short steps, to hear of a stop.
         channel->WaitForStateChange(state, std::min(deadline, Clock::now() + std::chrono::milliseconds(50)));
     }
