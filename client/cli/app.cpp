@@ -1,5 +1,8 @@
 #include "cli/app.h"
 
+#include <grpc/support/log.h>
+
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -80,6 +83,11 @@ Expected<Outcome> execute(const Arguments& arguments, const std::vector<Output>&
     return outcome;
 }
 
+/// What gRPC writes of itself beside the message; who looks for a fault in it has GRPC_VERBOSITY.
+void silence_grpc() {
+    if (std::getenv("GRPC_VERBOSITY") == nullptr) gpr_set_log_function([](gpr_log_func_args*) {});
+}
+
 int run_parsed(const Arguments& arguments) {
     const Expected<std::vector<Output>> outputs = plan_outputs(arguments);
     if (!outputs) return fail(outputs.error());
@@ -91,6 +99,7 @@ int run_parsed(const Arguments& arguments) {
 }  // namespace
 
 int run(int argc, const char* const* argv) {
+    silence_grpc();
     try {
         std::variant<Arguments, int> parsed = parse(argc, argv);
         if (const int* exit_status = std::get_if<int>(&parsed)) return *exit_status;

@@ -73,7 +73,7 @@ std::shared_ptr<spdlog::logger>& objects() {
     return held;
 }
 
-void write(Level level, const Json& json) { spdlog::default_logger_raw()->log(level, spdlog::string_view_t(json_text(json))); }
+void write(Level level, const Json& json) { objects()->log(level, spdlog::string_view_t(json_text(json))); }
 
 double milliseconds(std::chrono::steady_clock::duration time) {
     constexpr double kTenths = 10;

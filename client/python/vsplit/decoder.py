@@ -14,7 +14,12 @@ class CorruptError(Exception):
 
 
 def _load():
-    library = ctypes.CDLL(str(pathlib.Path(__file__).with_name("libvsplit_decoder.so")))
+    file = pathlib.Path(__file__).with_name("libvsplit_decoder.so")
+    try:
+        library = ctypes.CDLL(str(file))
+    except OSError as error:
+        raise ImportError(f"{file} is missing or not for this machine: use the package that the build makes, "
+                          "BUILD/client/python, or the installed one, not the sources") from error
     pointer = ctypes.c_void_p
     doubles = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
     indices = np.ctypeslib.ndpointer(np.uint32, flags="C_CONTIGUOUS")
