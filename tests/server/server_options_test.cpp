@@ -131,6 +131,31 @@ TEST_F(ServerOptionsTest, RefusesWhatIsNoNumberOfItsRangeWhereverItComes) {
     EXPECT_EQ(options({"--max-upload-bytes=18446744073709551615"}).service.limits.upload_bytes, 18446744073709551615U);
 }
 
+TEST_F(ServerOptionsTest, SaysWhereWhatItRefusesCameFrom) {
+    const auto why = [this](const std::string& file, const Variables& variables, const std::vector<std::string>& more = {}) {
+        write(file);
+        std::vector<std::string> arguments{"--config", file_};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_TRUE(refused(arguments, variables));
+        return errors_.substr(0, errors_.find(';'));
+    };
+    const std::string from_file = "vsplitd: " + file_ + ": ";
+    EXPECT_EQ(why("max-facez = 3\n", {}), from_file + "no option is called 'max-facez'");
+    EXPECT_EQ(why("[limits]\nmax-faces = 3\n", {}), from_file + "it has a section [limits], and options are in none");
+    EXPECT_EQ(why("max-faces = \"abc\"\n", {}), from_file + "--max-faces: it is \"abc\"");
+    EXPECT_EQ(why("", {{"VSPLITD_MAX_FACES", "abc"}}),
+              "vsplitd: VSPLITD_MAX_FACES of the environment: --max-faces: it is \"abc\"");
+    EXPECT_TRUE(why("", {}, {"--max-faces", "abc"}).starts_with("--max-faces: it is \"abc\"")) << errors_;
+    EXPECT_TRUE(why("log-format = \"json\"\nbogus = 1\n", {}).starts_with("{\"time\"")) << errors_;
+}
+
+TEST_F(ServerOptionsTest, RefusesAQuotaOfADirectoryThatIsNotThere) {
+    EXPECT_TRUE(refused({"--max-disk-bytes", "1000000"}));
+    EXPECT_NE(errors_.find("there is no data-dir"), std::string::npos) << errors_;
+    EXPECT_EQ(options({"--max-disk-bytes", "1000000", "--data-dir", "d"}).max_disk_bytes, 1'000'000U);
+    EXPECT_TRUE(refused({"--max-message-memory-bytes", "5", "--print-config"}));
+}
+
 TEST_F(ServerOptionsTest, AnEmptyVariableIsNone) {
     EXPECT_EQ(options({"--drain", "7"}, {{"VSPLITD_DATA_DIR", ""}, {"VSPLITD_MAX_SESSIONS", ""}}).data_dir, "");
 }
