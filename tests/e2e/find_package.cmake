@@ -3,13 +3,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 file(REMOVE_RECURSE ${WORK_DIR})
 run(${CMAKE_COMMAND} --install ${CORE_BUILD_DIR} --prefix ${WORK_DIR}/prefix)
 
-set(flags "")
-if(SANITIZE)
-  set(flags -fsanitize=${SANITIZE})
-endif()
-run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/build -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX_COMPILER}
-  -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D CMAKE_CXX_FLAGS=${flags})
-run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
+build_against_prefix()
 
 run(${WORK_DIR}/build/consumer ${WORK_DIR}/improved.obj)
 message("${run_output}")

@@ -7,3 +7,14 @@ function(run)
   endif()
   set(run_output "${output}" PARENT_SCOPE)
 endfunction()
+
+# Builds SOURCE_DIR in WORK_DIR/build as a project that knows of us what is installed in WORK_DIR/prefix.
+function(build_against_prefix)
+  set(flags "")
+  if(SANITIZE)
+    set(flags -fsanitize=${SANITIZE})
+  endif()
+  run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/build -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX_COMPILER}
+    -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D CMAKE_CXX_FLAGS=${flags})
+  run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
+endfunction()
