@@ -1,17 +1,21 @@
 /// What the comparison of scripts/bench_quality needs from one result: prints one line of JSON.
 ///
 ///     bench_quality_measure RESULT SOURCE [--weld T]         the figures of RESULT against SOURCE
-///     bench_quality_measure --convert SOURCE OUT [--weld T]  SOURCE as vsplit reads it, for programs that do not weld
+///     bench_quality_measure --convert SOURCE OUT [--weld T]  SOURCE as vsplit reads it, for programs that do not weld; repaired
+///                                                            (FULL) where it is no manifold, so that all may start from it
 
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "quality/measure.h"
 #include "vsplit/io/read_mesh.h"
 #include "vsplit/io/write_mesh.h"
+#include "vsplit/mesh/inspect.h"
+#include "vsplit/repair/repair_mesh.h"
 
 namespace {
 
@@ -22,14 +26,26 @@ int fail(const std::string& message) {
 
 std::string json(const std::optional<double>& value) { return value ? std::to_string(*value) : "null"; }
 
+/// Whether a repair was needed, or why none helps.
+vsplit::Expected<bool> make_manifold(vsplit::TriangleMesh& mesh) {
+    if (vsplit::require_manifold(vsplit::inspect(mesh))) return false;
+    auto repaired = vsplit::repair_mesh(mesh, {.mode = vsplit::RepairMode::kFull});
+    if (!repaired) return repaired.error();
+    if (vsplit::Status manifold = vsplit::require_manifold(vsplit::inspect(repaired->mesh)); !manifold) return manifold.error();
+    mesh = std::move(repaired->mesh);
+    return true;
+}
+
 int convert(const std::string& from, const std::string& to, double weld) {
-    const auto source = vsplit::read_mesh_file(from, {.weld = weld});
+    auto source = vsplit::read_mesh_file(from, {.weld = weld});
     if (!source) return fail(from + ": " + source.error().message);
+    const vsplit::Expected<bool> repaired = make_manifold(source->mesh);
+    if (!repaired) return fail(from + ": " + repaired.error().message);
     const auto format = vsplit::format_by_extension(to);
     if (!format) return fail(format.error().message);
     const vsplit::Status written = vsplit::write_mesh_file(source->mesh, *format, to);
     if (!written) return fail(written.error().message);
-    std::printf("{\"faces\": %u}\n", source->mesh.face_count());
+    std::printf("{\"faces\": %u, \"repaired\": %s}\n", source->mesh.face_count(), *repaired ? "true" : "false");
     return 0;
 }
 

@@ -62,6 +62,19 @@ TEST_F(CreaseGuardTest, PointsFollowTheCreaseTheyWentOverTo) {
     EXPECT_TRUE(guard.admits(std::array{crease_number(0, 1)}, {})) << "its points are elsewhere now";
 }
 
+/// A crease may not go by more than a quarter of the bound beyond what its points allow, at its ends either.
+TEST_F(CreaseGuardTest, BetweenPointsACreaseIsNoFurtherThanTheBound) {
+    constexpr double kBound = 0.1;
+    CreaseGuard guard = this->guard(0.75 * kBound);
+    for (int step = 0; step < 300; ++step) {
+        const double missing = 0.001 * step;  // at one end
+        const std::array shorter{CreaseGuard::NewCrease{7, Vec3(missing, 0, 0), Vec3(2, 0, 0)}};
+        if (guard.admits(all(), shorter)) {
+            EXPECT_LE(missing, kBound);
+        }
+    }
+}
+
 TEST_F(CreaseGuardTest, ATryThatIsNotCommittedChangesNothing) {
     CreaseGuard guard = this->guard(0.1);
     const std::array near{CreaseGuard::NewCrease{crease_number(1, 3), Vec3(0, 0, 0), Vec3(2, 0, 0)}};

@@ -311,5 +311,25 @@ TEST(CreaseIndexTest, FindsWhatAskingEverySegmentFinds) {
     EXPECT_EQ(index.shape(7).corners[1], positions[15]);
 }
 
+/// The hint is what a shape itself says: however little that is, the shape is found with it.
+TEST(SurfaceIndexTest, AShapesOwnDistanceIsAHintThatFindsIt) {
+    test::Random random(31);
+    TriangleMesh mesh;
+    for (std::uint32_t f = 0; f < 500; ++f) {
+        const Vec3 place = Vec3(-20000, 9000, 5000) + random_point(random, 500);
+        for (int corner = 0; corner < 3; ++corner) mesh.positions.push_back(place + random_point(random, 1));
+        mesh.faces.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+    }
+    const SurfaceIndex index = surface_index(mesh);
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        for (const std::uint32_t v : mesh.faces[f]) {
+            for (int step = 0; step < 20; ++step) {  // within a few roundings of a corner
+                const Vec3 p = mesh.positions[v] + random_point(random, 1e-11);
+                EXPECT_NE(index.closest(p, index.shape(f).closest(p).squared_distance).element, SurfaceIndex::kNoElement);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace vsplit

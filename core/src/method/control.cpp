@@ -61,7 +61,7 @@ ControlOptions default_options(const TriangleMesh& mesh, const ControlOptions& o
     ControlOptions used = options;
     used.subdivisions = options.subdivisions.value_or(kDefaultSubdivisions);
     used.mode = options.mode.value_or(Mode::kExtended);
-    fill_tolerances(bounding_box(mesh).diagonal(), used);
+    fill_tolerances(extent_of(mesh), used);
     used.min_stretch = options.min_stretch.value_or(kStretchFloor);
     used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
@@ -89,11 +89,12 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     const bool has_field = used.sizing && !used.sizing->field.empty();
     const bool may_mend = extended || (report.closed && !has_field);
     const std::shared_ptr<const CreasedMesh> mended = may_mend ? mend_hubs(mesh, used, context) : nullptr;
-    const std::shared_ptr<const CreasedMesh> flipped = extended && !mended ? without_slivers(mesh, used, context) : mended;
+    const std::shared_ptr<const CreasedMesh> flipped =
+        extended && !mended ? without_slivers(mesh, used, usual_size(mesh, used), context) : mended;
     const TriangleMesh& coarse = flipped ? flipped->mesh : mesh;
     std::optional<SizePlan> sizes;
     if (used.sizing) {
-        const SizingOptions sizing = mended && has_field ? with_field_on(mended->mesh, mesh, *used.sizing) : *used.sizing;
+        const SizingOptions sizing = flipped && has_field ? with_field_on(flipped->mesh, mesh, *used.sizing) : *used.sizing;
         Expected<SizePlan> plan = plan_sizes(coarse, sizing, creases_of(mesh, flipped, used), usual_size(mesh, used));
         if (!plan) return plan.error();
         sizes = *std::move(plan);

@@ -66,14 +66,6 @@ private:
         return true;
     }
 
-    /// Whether d lies inside the circle of a, b, c: the angles at c and d are more than 180 degrees together.
-    [[nodiscard]] static bool is_within_circle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-        constexpr double kLeast = 1e-9;
-        const Vec3 ca = a - c, cb = b - c, da = a - d, db = b - d;
-        const double lengths = ca.norm() * cb.norm() * da.norm() * db.norm();
-        return ca.cross(cb).norm() * da.dot(db) + ca.dot(cb) * da.cross(db).norm() < -kLeast * lengths;
-    }
-
     EditableMesh mesh_;
     std::vector<Vec3> normals_;  // of the faces; anything for those at ghosts
     std::vector<double> moved_;  // of the faces

@@ -17,8 +17,8 @@
 namespace vsplit {
 namespace {
 
-/// What is taken where nothing is given: the subdivision size as a share of the diagonal, and the mean edge of the result over
-/// it. The paper's method needs edges well under those of the result; with flips and moves the same size does.
+/// What is taken where nothing is given: the subdivision size as a share of the mesh's extent, and the mean edge of the result
+/// over it. The paper's method needs edges well under those of the result; with flips and moves the same size does.
 struct DefaultSizes {
     double size_share = 0.01;
     double mean_edge_over_size = 1.5;
@@ -39,7 +39,6 @@ constexpr double kSizeGrowth = 1.25;
 /// Faces after subdivision that an interactive user waits for. Needles that are cut stay needles until they are millions.
 constexpr std::uint32_t kFaceBudget = 1'000'000;
 constexpr std::uint32_t kNeedleBudget = 50'000;
-constexpr double kNeedles = 1e4;  // slenderness
 /// Strict mode: where nothing more can be collapsed within the tolerance shape has suffered; with twice the faces it is near its
 /// best.
 constexpr std::uint32_t kFacesOverCoarsest = 2;
@@ -50,6 +49,12 @@ std::uint32_t face_budget(const TriangleMesh& mesh, std::uint32_t host_limit) {
 
 double edge_of_faces(const TriangleMesh& mesh, std::uint32_t faces) {
     return std::sqrt(surface_area(mesh) / (kEquilateralArea * faces));
+}
+
+/// The size of edges that is wanted where none is given, whatever it costs. Extended mode.
+double wanted_size(const TriangleMesh& mesh, const ImproveOptions& options) {
+    if (options.subdivision_size) return *options.subdivision_size;
+    return options.faces ? edge_of_faces(mesh, *options.faces) : kExtendedSizes.size_share * extent_of(mesh);
 }
 
 /// `size`, or the next larger one that keeps to what an interactive user waits for.
@@ -65,7 +70,7 @@ double default_subdivision_size(const TriangleMesh& mesh, const ImproveOptions& 
                                 std::uint32_t host_limit, double fineness, const ExecutionContext& context) {
     if (options.mode == Mode::kStrict)
         return affordable_size(mesh, kStrictSizes.size_share * diagonal, diagonal, host_limit, context);
-    const double size = options.faces ? edge_of_faces(mesh, *options.faces) : kExtendedSizes.size_share * diagonal;
+    const double size = wanted_size(mesh, options);
     return size > 0 ? affordable_size(mesh, fineness * size, diagonal, host_limit, context) : diagonal;
 }
 
@@ -96,7 +101,7 @@ Expected<std::optional<SizePlan>> plan_for(const TriangleMesh& mesh, const std::
     if (used.sizing) return given(plan_sizes(mesh, *used.sizing, creases, *used.subdivision_size));
     if (used.mode == Mode::kStrict || asked.faces || asked.subdivision_size) return std::optional<SizePlan>();
     // A tolerance far below the default is about the facets of the source; their angles are no curvature.
-    const double tolerance = std::max(*used.tolerance, kDefaultToleranceShare * bounding_box(mesh).diagonal());
+    const double tolerance = std::max(*used.tolerance, kDefaultToleranceShare * extent_of(mesh));
     return given(
         plan_by_curvature(mesh, creases, tolerance, *used.subdivision_size, face_budget(mesh, limits.max_faces), context));
 }
@@ -131,7 +136,7 @@ ImproveOptions options_as_used(const TriangleMesh& mesh, const ImproveOptions& o
     used.mode = options.mode.value_or(Mode::kExtended);
     if (!used.subdivision_size)
         used.subdivision_size = default_subdivision_size(mesh, used, diagonal, limits.max_faces, fineness, context);
-    fill_tolerances(diagonal, used);
+    fill_tolerances(extent_of(mesh), used);
     used.feature_detection = options.feature_detection.value_or(FeatureDetection::kDihedral);
     used.feature_angle = options.feature_angle.value_or(kDefaultFeatureAngle);
     used.feature_weight = options.feature_weight.value_or(kDefaultFeatureWeight);
@@ -144,24 +149,47 @@ ImproveOptions options_as_used(const TriangleMesh& mesh, const ImproveOptions& o
     return used;
 }
 
-Expected<MethodResult> improve_once(const TriangleMesh& mesh, const ImproveOptions& given, const MethodLimits& limits,
-                                    double fineness, const ExecutionContext& context) {
-    const ImproveOptions options = with_regions(mesh, given);
+/// What is the same for every fineness: the source, what is asked of it, and what is subdivided in its place.
+struct Ground {
+    const TriangleMesh& mesh;
+    ImproveOptions options;
+    bool closed = false;
+    std::shared_ptr<const CreasedMesh> flipped{};  ///< null: the source itself
+    double fineness = 1;                           ///< to begin with, where neither faces nor a size are given
+
+    [[nodiscard]] const TriangleMesh& coarse() const { return flipped ? flipped->mesh : mesh; }
+};
+
+/// \return what is wrong with the options or the mesh.
+Expected<Ground> ground_for(const TriangleMesh& mesh, const ImproveOptions& asked, const MethodLimits& limits,
+                            const ExecutionContext& context) {
+    Ground ground{mesh, with_regions(mesh, asked)};
+    const ImproveOptions& options = ground.options;
     if (Status valid = check_options(options); !valid) return valid.error();
     context.report({"inspect", 0, mesh.face_count()});
     const MeshReport report = inspect(mesh);
     if (Status manifold = require_manifold(report); !manifold) return manifold.error();
     if (Status fitting = check_options_on(mesh, options); !fitting) return fitting.error();
-    ImproveOptions used = options_as_used(mesh, options, limits, fineness, context);
+    ground.closed = report.closed;
+    if (options.mode == Mode::kStrict) return ground;
+    const bool given_size = options.faces || options.subdivision_size;
+    if (!given_size && slenderness(mesh) > kNeedles) ground.fineness = kFinerSize;  // what is so thin needs it
+    ground.flipped = without_slivers(mesh, options_as_used(mesh, options, limits, 1, context),
+                                     ground.fineness * wanted_size(mesh, options), context);
+    return ground;
+}
 
+Expected<MethodResult> improve_once(const Ground& ground, const MethodLimits& limits, double fineness,
+                                    const ExecutionContext& context) {
+    const TriangleMesh& mesh = ground.mesh;
+    const ImproveOptions& options = ground.options;
+    const TriangleMesh& coarse = ground.coarse();
+    ImproveOptions used = options_as_used(coarse, options, limits, fineness, context);
     const bool extended = used.mode == Mode::kExtended;
-    const std::shared_ptr<const CreasedMesh> flipped = extended ? without_slivers(mesh, used, context) : nullptr;
-    const TriangleMesh& coarse = flipped ? flipped->mesh : mesh;
-    if (flipped) used = options_as_used(coarse, options, limits, fineness, context);  // its sizes may be smaller
     const Expected<std::optional<SizePlan>> sizes =
-        plan_for(coarse, creases_of(mesh, flipped, used), options, used, limits, context);
+        plan_for(coarse, creases_of(mesh, ground.flipped, used), options, used, limits, context);
     if (!sizes) return sizes.error();
-    const bool frozen = *used.freeze_boundary && !report.closed;
+    const bool frozen = *used.freeze_boundary && !ground.closed;
     Expected<SubdividedMesh> subdivided =
         subdivide(coarse, *sizes, *used.subdivision_size, frozen, {limits.max_faces, limits.admit}, context);
     if (!subdivided) return subdivided.error();
@@ -174,9 +202,9 @@ Expected<MethodResult> improve_once(const TriangleMesh& mesh, const ImproveOptio
                    .mean_floor = *used.min_mean_stretch,
                    .floor_from = options.faces.value_or(std::numeric_limits<std::uint32_t>::max()),
                    .freeze_boundary = frozen,
-                   .closed = report.closed,
+                   .closed = ground.closed,
                    .sizes = *sizes ? &**sizes : nullptr,
-                   .replaced = flipped};
+                   .replaced = ground.flipped};
     run.extended = extended;
     run.max_deviation = used.max_deviation.value_or(0);
     run.limit = options.max_deviation;
@@ -196,21 +224,21 @@ Expected<MethodResult> improve_once(const TriangleMesh& mesh, const ImproveOptio
 }
 
 /// Whether faces of a smaller default size may have the mean stretch that these have not.
-bool may_be_finer(const TriangleMesh& mesh, const MethodResult& result, const ImproveOptions& options, const MethodLimits& limits,
-                  const ExecutionContext& context) {
+bool may_be_finer(const Ground& ground, const MethodResult& result, const MethodLimits& limits, const ExecutionContext& context) {
     const auto& used = std::get<ImproveOptions>(result.options);
-    if (used.mode == Mode::kStrict || options.faces || options.subdivision_size) return false;
+    if (used.mode == Mode::kStrict || ground.options.faces || ground.options.subdivision_size) return false;
     if (result.quality.stretch_mean >= kMissedShare * *used.min_mean_stretch) return false;
-    return *options_as_used(mesh, options, limits, kFinerSize, context).subdivision_size < *used.subdivision_size;
+    const ImproveOptions finer = options_as_used(ground.coarse(), ground.options, limits, kFinerSize, context);
+    return *finer.subdivision_size < *used.subdivision_size;
 }
 
 Expected<MethodResult> improve_with(const TriangleMesh& mesh, const ImproveOptions& options, const MethodLimits& limits,
                                     const ExecutionContext& context) {
     const auto start = std::chrono::steady_clock::now();
-    Expected<MethodResult> result = improve_once(mesh, options, limits, 1, context);
-    if (result && may_be_finer(mesh, *result, options, limits, context)) {
-        result = improve_once(mesh, options, limits, kFinerSize, context);
-    }
+    const Expected<Ground> ground = ground_for(mesh, options, limits, context);
+    if (!ground) return ground.error();
+    Expected<MethodResult> result = improve_once(*ground, limits, ground->fineness, context);
+    if (result && may_be_finer(*ground, *result, limits, context)) result = improve_once(*ground, limits, kFinerSize, context);
     if (result) result->elapsed = std::chrono::steady_clock::now() - start;
     return result;
 }

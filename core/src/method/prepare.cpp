@@ -93,6 +93,12 @@ double slenderness(const TriangleMesh& mesh) {
     return area > 0 ? squares / area : std::numeric_limits<double>::infinity();
 }
 
+double extent_of(const TriangleMesh& mesh) {
+    const double diagonal = bounding_box(mesh).diagonal();
+    const double area = surface_area(mesh);
+    return area > 0 ? std::min(diagonal, 2 * std::sqrt(area)) : diagonal;
+}
+
 SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, const PrepareOptions& options) {
     const BoundingBox box = bounding_box(source);
     order_spatially(subdivided);

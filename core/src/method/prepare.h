@@ -42,14 +42,21 @@ struct PrepareOptions {
 /// Squares of the longest edges over the area of all faces: 2.3 where all are equilateral, far more where there are needles.
 /// Infinity for a mesh without area. O(faces).
 [[nodiscard]] double slenderness(const TriangleMesh& mesh);
+/// From here on most of a mesh's faces are needles: cut at midpoints they stay needles until they are millions.
+inline constexpr double kNeedles = 1e4;
 
-/// Fills in `tolerance` and, in the extended mode, `max_deviation`: either follows from the other where that is given.
+/// What default lengths are shares of: the diagonal of the bounding box, or twice the root of the area where that is less. So of
+/// a body that fills little of its box, as cables do, as many faces come out as of any other. O(faces).
+[[nodiscard]] double extent_of(const TriangleMesh& mesh);
+
+/// Fills in `tolerance` and, in the extended mode, `max_deviation`: either follows from the other where that is given, else from
+/// the mesh's `extent`.
 template <class Options>
-void fill_tolerances(double diagonal, Options& options) {
+void fill_tolerances(double extent, Options& options) {
     constexpr double kDeviationOverTolerance = 2;
     if (!options.tolerance) {
         options.tolerance =
-            options.max_deviation ? *options.max_deviation / kDeviationOverTolerance : kDefaultToleranceShare * diagonal;
+            options.max_deviation ? *options.max_deviation / kDeviationOverTolerance : kDefaultToleranceShare * extent;
     }
     if (options.mode == Mode::kExtended && !options.max_deviation) {
         options.max_deviation = kDeviationOverTolerance * *options.tolerance;

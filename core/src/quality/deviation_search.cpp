@@ -184,7 +184,7 @@ private:
 
     /// The piece's distance to one shape. \return the corner furthest from it.
     Vec3 bound_by(std::uint32_t element, Piece& piece) const {
-        const Shape& shape = to_.shape(element);
+        const auto& shape = to_.shape(element);
         double worst = -1;
         Vec3 where = Vec3::Zero();
         for (const Vec3& p : piece.shape.corners()) {

@@ -7,8 +7,10 @@
 namespace vsplit {
 namespace {
 
-/// Points of one edge of the dense mesh.
-constexpr double kMostPointsAnEdge = 8;
+/// Limits, from one point of an edge of the dense mesh to the next: what lies between is at most half of that further, and so
+/// within the bound of which the limit is three quarters (`run_policy`).
+constexpr double kStep = 2.0 / 3;
+constexpr double kMostPointsAnEdge = 32;
 
 double square_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
     const Vec3 along = b - a;
@@ -29,7 +31,7 @@ CreaseGuard::CreaseGuard(const HalfEdgeMesh& mesh, const std::vector<SharpEdge>&
 }
 
 void CreaseGuard::add(HalfEdge edge, const Vec3& a, const Vec3& b) {
-    const auto count = static_cast<int>(std::clamp(std::ceil((b - a).norm() / limit_), 1.0, kMostPointsAnEdge));
+    const auto count = static_cast<int>(std::clamp(std::ceil((b - a).norm() / (kStep * limit_)), 1.0, kMostPointsAnEdge));
     for (int n = 0; n < count; ++n) {
         points_.push_back(a + (b - a) * ((n + 0.5) / count));
         next_.push_back(kNone);

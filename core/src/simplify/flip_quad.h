@@ -11,6 +11,15 @@
 
 namespace vsplit {
 
+/// Whether an edge (a, b) between the faces (a, b, c) and (b, a, d) is not Delaunay: d lies inside the circle of a, b, c, so that
+/// the angles at c and d are more than 180 degrees together.
+[[nodiscard]] inline bool is_within_circle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    constexpr double kLeast = 1e-9;
+    const Vec3 ca = a - c, cb = b - c, da = a - d, db = b - d;
+    const double lengths = ca.norm() * cb.norm() * da.norm() * db.norm();
+    return ca.cross(cb).norm() * da.dot(db) + ca.dot(cb) * da.cross(db).norm() < -kLeast * lengths;
+}
+
 /// The faces (a, b, c) and (b, a, d) of an edge, which a flip would make (d, c, a) and (c, d, b), in space.
 struct FlipQuad {
     /// A face that the flip would make.

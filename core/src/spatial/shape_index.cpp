@@ -318,7 +318,7 @@ ShapeIndex<Shape>::ShapeIndex(std::vector<Shape> shapes) {
     for (std::uint32_t slot = 0; slot < items.size(); ++slot) {
         element_[slot] = items[slot].element;
         slot_[items[slot].element] = slot;
-        shapes_[slot] = shapes[items[slot].element];
+        shapes_[slot] = Prepared(shapes[items[slot].element]);
     }
 }
 
@@ -355,7 +355,7 @@ template <class Shape>
 void ShapeIndex<Shape>::search_leaf(const Vec3& p, std::uint32_t first, std::uint32_t count, Hit& hit) const {
     hit.tests += count;
     for (std::uint32_t slot = first; slot < first + count; ++slot) {
-        const Footpoint foot = shapes_[slot].closest(p);
+        const Footpoint foot = shapes_[slot].closest(p, hit.squared_distance);
         const bool nearer = foot.squared_distance < hit.squared_distance ||
                             (foot.squared_distance == hit.squared_distance && element_[slot] < hit.element);
         if (nearer) hit = {foot.squared_distance, foot.point, element_[slot], hit.tests};

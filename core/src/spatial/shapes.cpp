@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 
 namespace vsplit {
 namespace {
@@ -42,49 +43,63 @@ std::array<HalfSpace, 2> SegmentShape::sides() const {
     return {half_space(-along, corners[0]), half_space(along, corners[1])};
 }
 
-PreparedTriangle::PreparedTriangle(const TriangleShape& shape)
-    : a_(shape.corners[0]), b_(shape.corners[1]), c_(shape.corners[2]), ab_(b_ - a_), ac_(c_ - a_), normal_(ab_.cross(ac_)) {
+PreparedTriangle::PreparedTriangle(const TriangleShape& shape) : shape_(shape) {
+    const auto& [a, b, c] = shape.corners;
+    normal_ = (b - a).cross(c - a);
     whole_ = normal_.squaredNorm();
-    const double ab = ab_.squaredNorm(), ac = ac_.squaredNorm(), bc = (c_ - b_).squaredNorm();
+    const double ab = (b - a).squaredNorm(), ac = (c - a).squaredNorm(), bc = (c - b).squaredNorm();
     const double longest = std::max({ab, ac, bc});
     thin_ = !(whole_ > kThin * longest * longest);
-    border_ = kBorder * whole_;
     far_ = {whole_ * bc, whole_ * ac, whole_ * ab};
 }
 
 PreparedTriangle::Weights PreparedTriangle::weights(const Vec3& p) const {
-    const Vec3 ap = p - a_;
-    const double weight_b = normal_.dot(ap.cross(ac_));
-    const double weight_c = normal_.dot(ab_.cross(ap));
+    const auto& [a, b, c] = shape_.corners;
+    const Vec3 ap = p - a;
+    const double weight_b = normal_.dot(ap.cross(c - a));
+    const double weight_c = normal_.dot((b - a).cross(ap));
     return {whole_ - weight_b - weight_c, weight_b, weight_c};
 }
 
 Footpoint PreparedTriangle::closest(const Vec3& p, const Weights& weight) const {
-    const bool inside = weight.a > border_ && weight.b > border_ && weight.c > border_;
-    Footpoint best{(p - a_).squaredNorm(), a_};
+    const auto& [a, b, c] = shape_.corners;
+    const double border = kBorder * whole_;  // weights up to this are taken for none
+    const bool inside = weight.a > border && weight.b > border && weight.c > border;
+    Footpoint best{(p - a).squaredNorm(), a};
     if (inside) {
-        const Vec3 q = a_ + ab_ * (weight.b / whole_) + ac_ * (weight.c / whole_);
+        const Vec3 q = a + (b - a) * (weight.b / whole_) + (c - a) * (weight.c / whole_);
         if (!thin_) return {(p - q).squaredNorm(), q};
         keep_nearer(best, {(p - q).squaredNorm(), q});
     }
     // From outside, the nearest point is on an edge whose line separates p's projection from the triangle.
-    if (thin_ || weight.c <= border_) keep_nearer(best, closest_on_segment(a_, b_, p));
-    if (thin_ || weight.b <= border_) keep_nearer(best, closest_on_segment(a_, c_, p));
-    if (thin_ || weight.a <= border_) keep_nearer(best, closest_on_segment(b_, c_, p));
+    if (thin_ || weight.c <= border) keep_nearer(best, closest_on_segment(a, b, p));
+    if (thin_ || weight.b <= border) keep_nearer(best, closest_on_segment(a, c, p));
+    if (thin_ || weight.a <= border) keep_nearer(best, closest_on_segment(b, c, p));
     return best;
 }
 
-bool PreparedTriangle::is_beyond(const Weights& weight, double most) const {
-    constexpr double kRounding = 1.001;
-    const auto beyond = [most](double w, double far) { return w < 0 && w * w > kRounding * most * far; };
-    return !thin_ && (beyond(weight.a, far_[0]) || beyond(weight.b, far_[1]) || beyond(weight.c, far_[2]));
+bool PreparedTriangle::is_beyond(const Vec3& p, const Weights& weight, double most) const {
+    constexpr double kFactor = 1.001;
+    constexpr double kRounding = 1e-12;    // of weights, as the square of a share of the distance to a corner: really 1e-23
+    constexpr double kCoordinate = 1e-26;  // of points, as that of their coordinates: really 1e-31
+    if (thin_) return false;
+    const double rounding = kRounding * (p - shape_.corners[0]).squaredNorm() + kCoordinate * p.squaredNorm();
+    const double sure = kFactor * (most + rounding);
+    const auto beyond = [sure](double w, double far) { return w < 0 && w * w > sure * far; };
+    return beyond(weight.a, far_[0]) || beyond(weight.b, far_[1]) || beyond(weight.c, far_[2]);
 }
 
 Footpoint PreparedTriangle::closest(const Vec3& p) const { return closest(p, weights(p)); }
 
+Footpoint PreparedTriangle::closest(const Vec3& p, double most) const {
+    const Weights weight = weights(p);
+    if (is_beyond(p, weight, most)) return {std::numeric_limits<double>::infinity(), p};
+    return closest(p, weight);
+}
+
 double PreparedTriangle::squared_distance(const Vec3& p, double most) const {
     const Weights weight = weights(p);
-    return is_beyond(weight, most) ? most : closest(p, weight).squared_distance;
+    return is_beyond(p, weight, most) ? most : closest(p, weight).squared_distance;
 }
 
 Footpoint TriangleShape::closest(const Vec3& p) const { return PreparedTriangle(*this).closest(p); }

@@ -22,12 +22,16 @@ struct HalfSpace {
     [[nodiscard]] double excess(const Vec3& x) const { return normal.dot(x) - offset; }
 };
 
+class PreparedTriangle;
+
 /// A segment; both ends may be equal.
 struct SegmentShape {
+    using Prepared = SegmentShape;
     static constexpr std::size_t kCorners = 2;
     std::array<Vec3, kCorners> corners;
 
     [[nodiscard]] Footpoint closest(const Vec3& p) const;
+    [[nodiscard]] Footpoint closest(const Vec3& p, double /*most*/) const { return closest(p); }
 
     /// The half-spaces of unit normal across its ends: within both, the nearest point is no end.
     [[nodiscard]] std::array<HalfSpace, kCorners> sides() const;
@@ -35,6 +39,7 @@ struct SegmentShape {
 
 /// A triangle; it may have no area, or be a point.
 struct TriangleShape {
+    using Prepared = PreparedTriangle;
     static constexpr std::size_t kCorners = 3;
     std::array<Vec3, kCorners> corners;
 
@@ -50,12 +55,17 @@ struct TriangleShape {
 /// bit.
 class PreparedTriangle {
 public:
+    PreparedTriangle() = default;
     explicit PreparedTriangle(const TriangleShape& shape);
 
     [[nodiscard]] Footpoint closest(const Vec3& p) const;
+    /// The same where it is no further than the root of `most`; else that, or infinity as the distance.
+    [[nodiscard]] Footpoint closest(const Vec3& p, double most) const;
 
     /// The squared distance to p where it is less than `most`; else that, or anything from `most` on.
     [[nodiscard]] double squared_distance(const Vec3& p, double most) const;
+
+    [[nodiscard]] std::array<HalfSpace, TriangleShape::kCorners> sides() const { return shape_.sides(); }
 
 private:
     /// Barycentric weights of the projection of p, times |normal|^2. Through the normal they keep a relative error of rounding
@@ -66,14 +76,13 @@ private:
     [[nodiscard]] Weights weights(const Vec3& p) const;
     [[nodiscard]] Footpoint closest(const Vec3& p, const Weights& weights) const;
     /// Whether p lies further than the root of `most` beyond the line of an edge, by what is far over any rounding.
-    [[nodiscard]] bool is_beyond(const Weights& weights, double most) const;
+    [[nodiscard]] bool is_beyond(const Vec3& p, const Weights& weights, double most) const;
 
-    Vec3 a_, b_, c_, ab_, ac_;
-    Vec3 normal_;
-    double whole_ = 0;   // |normal|^2
-    double border_ = 0;  // weights up to this are taken for none
+    TriangleShape shape_;
+    Vec3 normal_ = Vec3::Zero();
+    double whole_ = 0;             // |normal|^2
+    std::array<double, 3> far_{};  // of a, b, c: what a weight's square is at a distance of 1 beyond the edge opposite
     bool thin_ = false;
-    std::array<double, 3> far_;  // of a, b, c: what a weight's square is at a distance of 1 beyond the edge opposite
 };
 
 }  // namespace vsplit
