@@ -117,9 +117,9 @@ Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most
         stored.push_back(next);
     }
     columns_ = {};
-    pending_ = {};
     short_ = false;
-    unpacked_.resize(total);
+    unpacked_.resize(total + sizeof(std::uint64_t));
+    bits_.fill({std::as_bytes(std::span(unpacked_)).data() + total, 0, 0});
     std::uint8_t* to = unpacked_.data();
     for (const Stored& column : stored) {
         if (column.compressed) {
@@ -129,14 +129,21 @@ Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most
             std::transform(column.bytes.begin(), column.bytes.end(), to,
                            [](std::byte byte) { return static_cast<std::uint8_t>(byte); });
         }
-        columns_[column.column] = {to, to + column.size};
+        if (column.column < column::kCount) {
+            columns_[column.column] = {to, to + column.size};
+        } else {
+            bits_[column.column - column::kBits] = {std::as_bytes(std::span(to, column.size)).data(), 0, 8 * column.size};
+        }
         to += column.size;
     }
     return Done{};
 }
 
 bool ColumnReader::all_read() const {
-    return std::all_of(pending_.begin(), pending_.end(), [](const Pending& at) { return at.bits == 0 && at.width < 8; }) &&
+    const auto only_fills_up = [](const BitCursor& at) {
+        return at.next == at.end || (at.end - at.next < 8 && static_cast<unsigned>(at.bytes[at.end / 8 - 1]) >> at.next % 8 == 0);
+    };
+    return std::all_of(bits_.begin(), bits_.end(), only_fills_up) &&
            std::all_of(columns_.begin(), columns_.end(), [](const Cursor& at) { return at.next == at.end; });
 }
 

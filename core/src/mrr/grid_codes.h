@@ -52,7 +52,8 @@ public:
         : origin_{grid.origin().x(), grid.origin().y(), grid.origin().z()},
           step_(grid.step()),
           per_unit_(1 / grid.step()),
-          most_(static_cast<double>((std::uint64_t{1} << grid.bits()) - 1)) {}
+          most_code_((std::uint32_t{1} << grid.bits()) - 1),
+          most_(most_code_) {}
 
     [[nodiscard]] std::uint32_t code(double value, unsigned axis) const {
         const double upper =
@@ -63,12 +64,13 @@ public:
     [[nodiscard]] int scale(double length, double /*at*/) const {
         return std::clamp(exponent_field(length * per_unit_) - 1022, 0, kScales - 1);
     }
-    [[nodiscard]] bool holds(std::uint32_t code) const { return code <= most_; }
+    [[nodiscard]] bool holds(std::uint32_t code) const { return code <= most_code_; }
 
 private:
     double origin_[3];
     double step_;
     double per_unit_;
+    std::uint32_t most_code_;
     double most_;
 };
 
