@@ -106,7 +106,7 @@ private:
         if constexpr (!Symbols::kWrites) mesh_.positions.push_back(Vec3::Zero());
         Vec3& position = mesh_.positions[known_];
         for (unsigned axis = 0; axis < 3; ++axis) {
-            const auto at = static_cast<unsigned>(scale >= 0 ? scale : codes_.scale(length, expected[axis]));
+            const unsigned at = scale >= 0 ? static_cast<unsigned>(scale) : codes_.scale(length, expected[axis]);
             if (!code_coordinate(symbols_, codes_, column::kAlong + at, expected[axis], axis, position[axis])) return false;
         }
         ++known_;

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mrr/grid_codes.h"
+#include "mrr/look_ahead.h"
 #include "mrr/star.h"
 #include "mrr/symbols.h"
 #include "vsplit/mrr/progressive_mesh.h"
@@ -24,15 +27,14 @@ public:
     BlockCoder(Symbols symbols, const Codes& codes, ProgressiveMesh& mesh) : symbols_(symbols), codes_(codes), mesh_(mesh) {}
 
     /// Reading only: takes the places of all splits of the block at once, so that the mesh around the next ones can be fetched
-    /// from memory while one is decoded. Beyond the caches that is most of the time.
+    /// from memory while one is decoded.
     void read_places(std::size_t splits) {
-        places_.assign(splits + kAhead, 0);
-        const std::uint32_t count = mesh_.mesh().vertex_count();
-        for (std::uint32_t n = 0; n < splits; ++n) places_[n] = read_place(count + n);
-        for (std::size_t n = 0; n < kAhead; ++n) {
-            set_out(n);
-            walkers_[n].corner = mesh_.corner_of(walkers_[n].vertex);
-        }
+        places_.resize(splits);
+        std::uint32_t count = mesh_.mesh().vertex_count();
+        for (std::uint32_t& place : places_) place = read_place(count++);
+        std::vector<std::uint32_t> far;
+        std::copy_if(places_.begin(), places_.end(), std::back_inserter(far), [](std::uint32_t place) { return place < kIsBeside; });
+        look_ahead_.begin(std::move(far));
     }
 
     [[nodiscard]] const Error& error() const { return error_; }
@@ -75,7 +77,8 @@ public:
         if (move.vertex >= mesh_.mesh().vertex_count()) return bad("a vertex that is not there");
         last_moved_ = move.vertex;
         star_.gather(mesh_, move.vertex);
-        code_point(StarFrame(star_), {}, 0, move.position, column::kMoveAlong, column::kMoveAcross);
+        const StarFrame frame(star_);
+        code_point(frame, columns(frame, column::kMoveAlong, column::kMoveAcross), {}, 0, move.position);
         if (!in_range_) return bad("a position that is not on the grid");
         return taken(mesh_.refine(move));
     }
@@ -84,8 +87,6 @@ private:
     static constexpr std::uint32_t kBeside = 128;  // symbols from here on name a vertex beside the record before
     static constexpr std::uint32_t kMostCodedFan = 10;
     static constexpr std::uint32_t kIsBeside = 0xFFFFFF00U;
-    static constexpr std::size_t kAhead = 10;  // two less go around most vertices that are split
-    static constexpr std::size_t kSlots = 16;  // no fewer than that
 
     bool bad(const char* what) {
         error_ = {Cause::kCorrupt, what, ""};
@@ -119,43 +120,12 @@ private:
 
     /// kNone where there is no such vertex.
     std::uint32_t next_place() {
-        look_ahead();
         const std::uint32_t place = places_[next_++];
-        if (place < kIsBeside) return place;
+        if (place < kIsBeside) {
+            look_ahead_.advance();
+            return place;
+        }
         return place - kIsBeside < beside_count_ ? beside_[place - kIsBeside] : kNone;
-    }
-
-    /// Goes around a vertex that is split later, a step a record, and asks for the memory of the next step. The mesh changes under
-    /// it, so it may miss something; it reads nothing that is not there. One that has nothing to look at goes around vertex 0: to
-    /// do that is cheaper than to ask.
-    struct Walker {
-        std::uint32_t vertex = 0;
-        HalfEdge corner = 0;
-        HalfEdge beyond = 0;
-    };
-
-    void look_ahead() {
-        for (std::size_t n = 1; n + 1 < kAhead; ++n) step(walkers_[(next_ + n) % kSlots]);
-        Walker& second = walkers_[(next_ + kAhead - 1) % kSlots];
-        second.corner = mesh_.corner_of(second.vertex);
-        mesh_.prefetch_corner(second.corner);
-        set_out(next_ + kAhead);
-    }
-
-    void set_out(std::size_t n) {
-        Walker& walker = walkers_[n % kSlots];
-        walker.vertex = places_[n] < mesh_.mesh().vertex_count() ? places_[n] : 0;
-        mesh_.prefetch_corner_of(walker.vertex);
-        mesh_.prefetch_position(walker.vertex);
-    }
-
-    void step(Walker& walker) {
-        mesh_.prefetch_position(origin(mesh_.mesh(), next(walker.corner)));
-        mesh_.prefetch_position(origin(mesh_.mesh(), prev(walker.beyond)));
-        walker.beyond = mesh_.twins()[next(walker.corner)];
-        mesh_.prefetch_corner(walker.beyond);
-        walker.corner = mesh_.twins()[prev(walker.corner)];
-        mesh_.prefetch_corner(walker.corner);
     }
 
     /// Where the fan that goes over begins and how many faces it has; leaves the star turned to its beginning.
@@ -183,6 +153,7 @@ private:
     /// to meshes of all kinds and are part of the format.
     void code_positions(VertexSplit& split) {
         const StarFrame frame(star_);
+        const Columns to = columns(frame, column::kAlong, column::kAcross);
         const Offset fan = mean_offset(0, split.steps);
         const Offset rest = mean_offset(split.steps, star_.valence());
         Offset ends{}, guess{};
@@ -194,45 +165,56 @@ private:
         const double fan_height = plane ? frame.height(fan) : 0;
         const double rest_height = plane ? frame.height(rest) : 0;
         const double ends_height = plane ? frame.height(ends) : 0;
-        code_point(frame, guess, (0.35 * fan_height - 0.15 * rest_height) + 0.1 * ends_height, split.added, column::kAlong,
-                   column::kAcross);
+        code_point(frame, to, guess, (0.35 * fan_height - 0.15 * rest_height) + 0.1 * ends_height, split.added);
         Offset added{};
         for (int axis = 0; axis < 3; ++axis) {
             added[axis] = split.added[axis] - star_.centre[axis];
             guess[axis] = ((0.55 * rest[axis] - 0.4 * fan[axis]) + 0.1 * ends[axis]) + 0.4 * added[axis];
         }
         const double added_height = plane ? frame.height(added) : 0;
-        code_point(frame, guess, ((0.5 * rest_height - 0.35 * fan_height) + 0.05 * ends_height) + 0.4 * added_height, split.kept,
-                   column::kAlong, column::kAcross);
+        code_point(frame, to, guess, ((0.5 * rest_height - 0.35 * fan_height) + 0.05 * ends_height) + 0.4 * added_height,
+                   split.kept);
     }
 
     /// Of the neighbours from `first` to `last`, both included.
     Offset mean_offset(std::uint32_t first, std::uint32_t last) const {
-        Offset sum{};
         const Offset* const offsets = star_.offsets();
+        double x = 0, y = 0, z = 0;
         for (std::uint32_t n = first; n <= last; ++n) {
-            for (int axis = 0; axis < 3; ++axis) sum[axis] += offsets[n][axis];
+            x += offsets[n][0];
+            y += offsets[n][1];
+            z += offsets[n][2];
         }
         const double count = last - first + 1;
-        for (double& value : sum) value /= count;
-        return sum;
+        return {x / count, y / count, z / count};
+    }
+
+    /// Where the coordinates of a point go: along the two axes of the plane, and across it.
+    struct Columns {
+        unsigned u = 0, v = 0, w = 0;
+    };
+
+    Columns columns(const StarFrame& frame, unsigned along, unsigned across) const {
+        const auto along_axis = [&](unsigned axis) { return along + codes_.scale(frame.reach[axis], star_.centre[axis]); };
+        const unsigned w = frame.across;
+        return {along_axis((w + 1) % 3), along_axis((w + 2) % 3),
+                frame.has_plane() ? across + codes_.scale(frame.thickness, star_.centre[w]) : along_axis(w)};
     }
 
     /// `guess` is an offset from the centre, `height` one over the plane: the two coordinates along the plane come first, and
     /// with them the plane says where to expect the third.
-    void code_point(const StarFrame& frame, const Offset& guess, double height, Vec3& point, unsigned along, unsigned across) {
+    void code_point(const StarFrame& frame, const Columns& to, const Offset& guess, double height, Vec3& point) {
         const Offset& centre = star_.centre;
         const unsigned u = (frame.across + 1) % 3, v = (frame.across + 2) % 3, w = frame.across;
-        for (const unsigned axis : {u, v}) {
-            put(along + codes_.scale(frame.reach[axis], centre[axis]), centre[axis] + guess[axis], axis, point);
-        }
+        put(to.u, centre[u] + guess[u], u, point);
+        put(to.v, centre[v] + guess[v], v, point);
         if (!frame.has_plane()) {
-            put(along + codes_.scale(frame.reach[w], centre[w]), centre[w] + guess[w], w, point);
+            put(to.w, centre[w] + guess[w], w, point);
             return;
         }
         const double slope =
             (frame.normal[u] * (point[u] - centre[u]) + frame.normal[v] * (point[v] - centre[v])) / frame.normal[w];
-        put(across + codes_.scale(frame.thickness, centre[w]), (centre[w] - slope) + height, w, point);
+        put(to.w, (centre[w] - slope) + height, w, point);
     }
 
     void put(unsigned column, double expected, unsigned axis, Vec3& point) {
@@ -256,7 +238,7 @@ private:
     std::uint32_t beside_count_ = 0;
     std::vector<std::uint32_t> places_;
     std::size_t next_ = 0;
-    std::array<Walker, kSlots> walkers_{};
+    LookAhead look_ahead_{mesh_};
     std::uint32_t last_moved_ = kNone;  // so that the first move counts from vertex 0
     bool in_range_ = true;
 };

@@ -21,12 +21,12 @@ const char* name_of(const VertexSplit& /*record*/) { return "vertex split"; }
 const char* name_of(EdgeFlip /*record*/) { return "edge flip"; }
 const char* name_of(const VertexMove& /*record*/) { return "vertex move"; }
 
-/// Room for `more`, growing by half at least: reserving exactly for every block would copy all of it for every block.
+/// Room for `more`, twice as much at least: reserving exactly for every block would copy all of it for every block.
 template <class Element>
 void make_room(std::vector<Element>& elements, std::size_t more) {
     const std::size_t needed = elements.size() + more;
     if (needed <= elements.capacity()) return;
-    const std::size_t room = std::max(needed, elements.capacity() + elements.capacity() / 2);
+    const std::size_t room = std::max(needed, 2 * elements.capacity());
     std::vector<Element> larger;
     larger.reserve(room);
     prefer_huge_pages(larger.data(), room * sizeof(Element));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -26,7 +27,7 @@ public:
         for (int axis = 0; axis < 3; ++axis) centre[axis] = positions[vertex][axis];
         const HalfEdge start = mesh.corner_of(vertex);
         HalfEdge corner = start;
-        double least = std::numeric_limits<double>::infinity();
+        std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
         std::uint32_t nearest = kNone;  // vertex
         std::uint32_t n = 0, first = 0;
         do {
@@ -36,8 +37,9 @@ public:
             vertices_[n] = neighbour;
             Offset& d = offsets_[n];
             for (int axis = 0; axis < 3; ++axis) d[axis] = positions[neighbour][axis] - centre[axis];
-            const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-            // Nobody can foresee which is the nearest, so this is selected, not branched to.
+            // Doubles that are not negative are in the order of their bits. Nobody can foresee which is the nearest, so this is
+            // selected, not branched to.
+            const auto square = std::bit_cast<std::uint64_t>(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
             const bool nearer = (square < least) | ((square == least) & (neighbour < nearest));
             first = nearer ? n : first;
             nearest = nearer ? neighbour : nearest;
@@ -108,14 +110,20 @@ struct StarFrame {
     explicit StarFrame(const Star& star) {
         const std::uint32_t valence = star.valence();
         const Offset* const offsets = star.offsets();
-        for (std::uint32_t n = 0; n < valence; ++n) {
-            const Offset& a = offsets[n];
-            const Offset& b = offsets[n + 1];
-            normal[0] += a[1] * b[2] - a[2] * b[1];
-            normal[1] += a[2] * b[0] - a[0] * b[2];
-            normal[2] += a[0] * b[1] - a[1] * b[0];
-            for (int axis = 0; axis < 3; ++axis) reach[axis] = std::max(reach[axis], std::abs(a[axis]));
+        double nx = 0, ny = 0, nz = 0, rx = 0, ry = 0, rz = 0;
+        double ax = offsets[0][0], ay = offsets[0][1], az = offsets[0][2];
+        for (std::uint32_t n = 1; n <= valence; ++n) {
+            const double bx = offsets[n][0], by = offsets[n][1], bz = offsets[n][2];
+            nx += ay * bz - az * by;
+            ny += az * bx - ax * bz;
+            nz += ax * by - ay * bx;
+            rx = std::max(rx, std::abs(ax));
+            ry = std::max(ry, std::abs(ay));
+            rz = std::max(rz, std::abs(az));
+            ax = bx, ay = by, az = bz;
         }
+        normal = {nx, ny, nz};
+        reach = {rx, ry, rz};
         if (std::abs(normal[1]) > std::abs(normal[across])) across = 1;
         if (std::abs(normal[2]) > std::abs(normal[across])) across = 2;
         if (!has_plane()) return;
