@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +35,15 @@ public:
         for (std::uint32_t& place : places_) place = read_place(count++);
         std::vector<std::uint32_t> far;
         std::copy_if(places_.begin(), places_.end(), std::back_inserter(far), [](std::uint32_t place) { return place < kIsBeside; });
-        look_ahead_.begin(std::move(far));
+        look_ahead_.begin(LookAhead::By::kVertex, std::move(far));
+    }
+
+    /// Writing only: the splits that come, for the same reason.
+    void foresee(std::span<const VertexSplit> splits) {
+        std::vector<HalfEdge> anchors;
+        anchors.reserve(splits.size());
+        for (const VertexSplit& split : splits) anchors.push_back(split.anchor);
+        look_ahead_.begin(LookAhead::By::kCorner, std::move(anchors));
     }
 
     [[nodiscard]] const Error& error() const { return error_; }
@@ -42,6 +51,7 @@ public:
     [[nodiscard]] bool code(VertexSplit& split) {
         std::uint32_t vertex = 0;
         if constexpr (Symbols::kWrites) {
+            look_ahead_.advance();
             vertex = origin(mesh_.mesh(), split.anchor);
             write_place(vertex);
         } else {

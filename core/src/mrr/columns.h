@@ -2,6 +2,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -87,21 +88,35 @@ inline constexpr TokenTable kTokens;
 /// Collects columns and packs them.
 class ColumnWriter {
 public:
-    void byte(unsigned column, std::uint8_t symbol) { columns_[column].push_back(static_cast<char>(symbol)); }
+    void byte(unsigned column, std::uint8_t symbol) { columns_[column].push_back(symbol); }
     /// Column kBits or kPlaceBits. \pre width <= 32, value < 2^width.
-    void bits(unsigned column, std::uint32_t value, unsigned width);
-    void number(unsigned column, std::uint32_t value);
+    void bits(unsigned column, std::uint32_t value, unsigned width) {
+        Bits& to = bits_[column - column::kBits];
+        to.pending |= std::uint64_t{value} << to.width;
+        to.width += width;
+        if (to.width >= 32) to.put(4);
+    }
+    void number(unsigned column, std::uint32_t value) {
+        const Token token = Token::of(value);
+        byte(column, token.symbol);
+        bits(column::kBits, token.rest, token.bits);
+    }
     void clear();
 
     /// Appends the columns that are not empty, each compressed by zstd where that is shorter, to `payload`.
     void pack(std::string& payload);
 
 private:
-    std::array<std::string, column::kCount> columns_;
+    std::array<std::vector<std::uint8_t>, column::kCount> columns_;
     struct Bits {
-        std::string packed;
+        std::vector<std::uint8_t> packed;
         std::uint64_t pending = 0;
-        unsigned width = 0;
+        unsigned width = 0;  ///< less than 32 before more come
+
+        void put(unsigned bytes) {
+            for (unsigned n = 0; n < bytes; ++n, pending >>= 8U) packed.push_back(static_cast<std::uint8_t>(pending & 0xFFU));
+            width -= std::min(width, 8 * bytes);
+        }
     };
     std::array<Bits, column::kAll - column::kBits> bits_;
     struct Free {

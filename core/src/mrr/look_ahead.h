@@ -19,10 +19,13 @@ public:
     /// \pre mesh outlives this.
     explicit LookAhead(const ProgressiveMesh& mesh) : mesh_(mesh) {}
 
-    /// The vertices in the order of their turns. Those that are not there yet when they are looked for are left out.
-    void begin(std::vector<std::uint32_t> vertices) {
-        vertices_ = std::move(vertices);
-        vertices_.resize(vertices_.size() + kAhead, 0);
+    /// The vertices in the order of their turns, by number or by a corner. Those that are not there yet when they are looked for are
+    /// left out.
+    enum class By : std::uint8_t { kVertex, kCorner };
+    void begin(By by, std::vector<std::uint32_t> starts) {
+        by_ = by;
+        starts_ = std::move(starts);
+        starts_.resize(starts_.size() + kAhead, 0);
         next_ = 0;
         walkers_ = {};
         for (std::size_t n = 0; n < kAhead; ++n) set_out(n);
@@ -32,8 +35,13 @@ public:
     void advance() {
         for (std::size_t n = 1; n + 1 < kAhead; ++n) step(walkers_[(next_ + n) % kSlots]);
         Walker& second = walkers_[(next_ + kAhead - 1) % kSlots];
-        second.corner = mesh_.corner_of(second.vertex);
-        mesh_.prefetch_corner(second.corner);
+        if (by_ == By::kVertex) {
+            second.corner = mesh_.corner_of(second.start);
+            mesh_.prefetch_corner(second.corner);
+        } else {
+            second.corner = second.start;
+            mesh_.prefetch_position(origin(mesh_.mesh(), second.corner));
+        }
         set_out(next_++ + kAhead);
     }
 
@@ -44,16 +52,21 @@ private:
     /// The mesh changes under it, so it may miss something; it reads nothing that is not there. One that has nothing to look at goes
     /// around vertex 0: to do that is cheaper than to ask.
     struct Walker {
-        std::uint32_t vertex = 0;
-        HalfEdge corner = 0;  ///< of the vertex; its memory has been asked for
+        std::uint32_t start = 0;
+        HalfEdge corner = 0;  ///< at the vertex; its memory has been asked for
         HalfEdge beyond = 0;  ///< in the face beyond the one before
     };
 
     void set_out(std::size_t n) {
         Walker& walker = walkers_[n % kSlots];
-        walker.vertex = vertices_[n] < mesh_.mesh().vertex_count() ? vertices_[n] : 0;
-        mesh_.prefetch_corner_of(walker.vertex);
-        mesh_.prefetch_position(walker.vertex);
+        const std::size_t count = by_ == By::kVertex ? mesh_.mesh().positions.size() : mesh_.twins().size();
+        walker.start = starts_[n] < count ? starts_[n] : 0;
+        if (by_ == By::kVertex) {
+            mesh_.prefetch_corner_of(walker.start);
+            mesh_.prefetch_position(walker.start);
+        } else {
+            mesh_.prefetch_corner(walker.start);
+        }
     }
 
     void step(Walker& walker) {
@@ -69,7 +82,8 @@ private:
     }
 
     const ProgressiveMesh& mesh_;
-    std::vector<std::uint32_t> vertices_;
+    By by_ = By::kVertex;
+    std::vector<std::uint32_t> starts_;
     std::size_t next_ = 0;
     std::array<Walker, kSlots> walkers_{};
 };

@@ -49,6 +49,7 @@ template <class Codes>
 Status RecordCodec::Impl::write(const RecordSpan& records, ProgressiveMesh& mesh) {
     BlockCoder<SymbolWriter, Codes> coder(SymbolWriter(writer), Codes(grid), mesh);
     mesh.reserve(records.splits.size(), records.flips.size(), records.moves.size());
+    coder.foresee(records.splits);
     bool coded = true;
     for_each_record(records, [&](auto record) { coded = coded && coder.code(record); });
     if (!coded) return coder.error();
