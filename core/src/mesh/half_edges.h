@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cassert>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -18,15 +17,7 @@ inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 [[nodiscard]] inline HalfEdge prev(HalfEdge h) { return h % 3 == 0 ? h + 2 : h - 1; }
 [[nodiscard]] inline std::uint32_t face_of(HalfEdge h) { return h / 3; }
 
-/// The corners of all faces one after the other, as half-edges count them: no division for a look at one.
-static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t));
-[[nodiscard]] inline const std::uint32_t* corners_of(const std::vector<Triangle>& faces) { return faces.data()->data(); }
-[[nodiscard]] inline std::uint32_t* corners_of(std::vector<Triangle>& faces) { return faces.data()->data(); }
-
-[[nodiscard]] inline std::uint32_t origin(const std::vector<Triangle>& faces, HalfEdge h) {
-    assert(h < 3 * faces.size());
-    return corners_of(faces)[h];
-}
+[[nodiscard]] inline std::uint32_t origin(const std::vector<Triangle>& faces, HalfEdge h) { return faces[h / 3][h % 3]; }
 
 /// The vertex at a corner of `mesh`.
 [[nodiscard]] inline std::uint32_t origin(const TriangleMesh& mesh, HalfEdge h) { return origin(mesh.faces, h); }

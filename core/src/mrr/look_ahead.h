@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/corners.h"
 #include "mesh/half_edges.h"
 #include "vsplit/mrr/progressive_mesh.h"
 

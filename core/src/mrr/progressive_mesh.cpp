@@ -7,6 +7,7 @@
 #include "base/huge_pages.h"
 #include "mesh/cap_boundaries.h"
 #include "mesh/coordinate.h"
+#include "mesh/corners.h"
 #include "mesh/half_edges.h"
 #include "mesh/turn_edge.h"
 #include "vsplit/mesh/inspect.h"

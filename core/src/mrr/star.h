@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "mesh/corners.h"
 #include "mesh/half_edges.h"
 #include "vsplit/mrr/progressive_mesh.h"
 
