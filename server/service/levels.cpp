@@ -30,7 +30,12 @@ std::shared_ptr<const Value> cached(LruCache<Paid<Value>>& cache, std::size_t ke
 }  // namespace
 
 Levels::Levels(MultiresMesh mrr, MemoryBudget& budget)
-    : mrr_(std::move(mrr)), box_(box_of_all(mrr_)), budget_(budget), meshes_(kCachedMeshes), qualities_(kKeptQualities), encoded_(kKeptEncodings) {}
+    : mrr_(std::move(mrr)),
+      box_(box_of_all(mrr_)),
+      budget_(budget),
+      meshes_(kCachedMeshes),
+      qualities_(kKeptQualities),
+      encoded_(kKeptEncodings) {}
 
 std::shared_ptr<const TriangleMesh> Levels::mesh(std::size_t level) const {
     return cached(

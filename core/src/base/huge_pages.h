@@ -9,8 +9,8 @@
 
 namespace vsplit {
 
-/// Asks for large pages under memory that is about to be used, where it is large enough for some: who jumps about in many megabytes
-/// otherwise waits for the tables that say where the small ones are. A wish; nothing depends on it.
+/// Asks for large pages under memory that is about to be used, where it is large enough for some: who jumps about in many
+/// megabytes otherwise waits for the tables that say where the small ones are. A wish; nothing depends on it.
 inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
     constexpr std::uintptr_t kHugePage = std::uintptr_t{1} << 21U;

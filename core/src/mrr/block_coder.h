@@ -20,8 +20,8 @@ namespace vsplit {
 /// Codes one record after the other relative to the mesh it is applied to, and applies it. What is predicted depends on the mesh
 /// as it stands and on the records of the block before; the mesh is the same whichever way it was reached.
 ///
-/// `code`, writing, takes the record and rounds its positions; reading, it fills the record in. \return false, and error() says why,
-/// where it does not fit: a Status for each would cost more than the record.
+/// `code`, writing, takes the record and rounds its positions; reading, it fills the record in. \return false, and error() says
+/// why, where it does not fit: a Status for each would cost more than the record.
 template <class Symbols, class Codes>
 class BlockCoder {
 public:
@@ -34,7 +34,8 @@ public:
         std::uint32_t count = mesh_.mesh().vertex_count();
         for (std::uint32_t& place : places_) place = read_place(count++);
         std::vector<std::uint32_t> far;
-        std::copy_if(places_.begin(), places_.end(), std::back_inserter(far), [](std::uint32_t place) { return place < kIsBeside; });
+        std::copy_if(places_.begin(), places_.end(), std::back_inserter(far),
+                     [](std::uint32_t place) { return place < kIsBeside; });
         look_ahead_.begin(LookAhead::By::kVertex, std::move(far));
     }
 
@@ -56,12 +57,15 @@ public:
             write_place(vertex);
         } else {
             vertex = next_place();
-            if (vertex >= mesh_.mesh().vertex_count()) [[unlikely]] return bad("a vertex that is not there");
+            if (vertex >= mesh_.mesh().vertex_count()) [[unlikely]]
+                return bad("a vertex that is not there");
         }
         star_.gather(mesh_, vertex);
-        if (!code_fan(split)) [[unlikely]] return bad("a fan that is none of the vertex");
+        if (!code_fan(split)) [[unlikely]]
+            return bad("a fan that is none of the vertex");
         code_positions(split);
-        if (!in_range_) [[unlikely]] return bad("a position that is not on the grid");
+        if (!in_range_) [[unlikely]]
+            return bad("a position that is not on the grid");
         const std::uint32_t added = mesh_.mesh().vertex_count();
         if (!taken(mesh_.refine(split, star_.corners()))) return false;
         note_beside(vertex, added);
@@ -103,7 +107,8 @@ private:
         return false;
     }
     bool taken(const Status& status) {
-        if (status) [[likely]] return true;
+        if (status) [[likely]]
+            return true;
         error_ = status.error();
         return false;
     }

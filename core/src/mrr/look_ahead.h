@@ -20,8 +20,8 @@ public:
     /// \pre mesh outlives this.
     explicit LookAhead(const ProgressiveMesh& mesh) : mesh_(mesh) {}
 
-    /// The vertices in the order of their turns, by number or by a corner. Those that are not there yet when they are looked for are
-    /// left out.
+    /// The vertices in the order of their turns, by number or by a corner. Those that are not there yet when they are looked for
+    /// are left out.
     enum class By : std::uint8_t { kVertex, kCorner };
     void begin(By by, std::vector<std::uint32_t> starts) {
         by_ = by;
@@ -50,8 +50,8 @@ private:
     static constexpr std::size_t kAhead = 10;  // two less go around most vertices that are split
     static constexpr std::size_t kSlots = 16;  // a power of two, no less than that
 
-    /// The mesh changes under it, so it may miss something; it reads nothing that is not there. One that has nothing to look at goes
-    /// around vertex 0: to do that is cheaper than to ask.
+    /// The mesh changes under it, so it may miss something; it reads nothing that is not there. One that has nothing to look at
+    /// goes around vertex 0: to do that is cheaper than to ask.
     struct Walker {
         std::uint32_t start = 0;
         HalfEdge corner = 0;  ///< at the vertex; its memory has been asked for

@@ -238,10 +238,10 @@ void ProgressiveMesh::apply(const VertexMove& move) {
 }
 
 void ProgressiveMesh::apply(const VertexSplit& split, const HalfEdge* corners) {
-    const HalfEdge fan_begin = corners[0];              // v -> b, soon w -> b
+    const HalfEdge fan_begin = corners[0];                    // v -> b, soon w -> b
     const HalfEdge fan_end = prev(corners[split.steps - 1]);  // e -> v, soon e -> w
-    const HalfEdge after = corners[split.steps];        // v -> e
-    const HalfEdge before = twin_[fan_begin];           // b -> v
+    const HalfEdge after = corners[split.steps];              // v -> e
+    const HalfEdge before = twin_[fan_begin];                 // b -> v
     std::uint32_t* vertex_at = corners_of(mesh_.faces);
     const std::uint32_t v = vertex_at[fan_begin];
     const std::uint32_t w = mesh_.vertex_count();

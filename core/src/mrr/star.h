@@ -32,7 +32,8 @@ public:
         std::uint32_t nearest = kNone;  // vertex
         std::uint32_t n = 0, first = 0;
         do {
-            if (2 * n + 2 + kCopied > corners_.size()) [[unlikely]] grow();
+            if (2 * n + 2 + kCopied > corners_.size()) [[unlikely]]
+                grow();
             const std::uint32_t neighbour = vertex_at[next(corner)];
             corners_[n] = corner;
             vertices_[n] = neighbour;
@@ -64,8 +65,8 @@ public:
     }
 
     [[nodiscard]] std::uint32_t valence() const { return valence_; }
-    /// From the first neighbour on, once around and back to it: valence() + 1 of them can be read. Each neighbour's offset from the
-    /// centre, its number, and the corner of the centre in the face after it.
+    /// From the first neighbour on, once around and back to it: valence() + 1 of them can be read. Each neighbour's offset from
+    /// the centre, its number, and the corner of the centre in the face after it.
     [[nodiscard]] const Offset* offsets() const { return offsets_.data() + first_; }
     [[nodiscard]] const std::uint32_t* vertices() const { return vertices_.data() + first_; }
     [[nodiscard]] const HalfEdge* corners() const { return corners_.data() + first_; }
