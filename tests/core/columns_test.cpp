@@ -62,7 +62,7 @@ TEST(ColumnsTest, NumbersComeBackWhateverTheirSize) {
 }
 
 TEST(ColumnsTest, SymbolsBeyondTheLargestAndColumnsWithoutBitsRunShort) {
-    for (const std::uint8_t symbol : {16, 239, 240, 255}) {
+    for (const std::uint8_t symbol : std::initializer_list<std::uint8_t>{16, 239, 240, 255}) {
         ColumnWriter writer;
         writer.byte(column::kMoved, symbol);
         if (symbol > Token::kLargest) {
