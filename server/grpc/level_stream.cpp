@@ -25,25 +25,24 @@ Expected<LevelParts::Step> LevelParts::next(v1::ProgressiveEvent& event) {
     if (Status taken = take_made(); !taken) return taken.error();
     if (made_.base && base_part_ < wire::base_mesh_parts(*made_.base)) {
         *event.mutable_base_mesh() = wire::base_mesh_part(*made_.base, base_part_++);
+        if (Status begun = make_block(); !begun) return begun.error();
         return Step::kMessage;
     }
     const bool ready = made_.encoded != nullptr;
     if (ready && next_regions(event)) return Step::kMessage;
     if (ready && record_ == plan_.last_record) return Step::kEnd;
-    if (ready && !made_.block) made_.block = made_.encoded->find(record_, plan_.last_record);
-    if (!made_.block) {
-        if (Status begun = begin_errand(); !begun) return begun.error();
-        return Step::kWait;
-    }
-    const service::EncodedRecords::Block block = std::exchange(made_.block, nullptr);
-    send(*block, event);
-    if (record_ < plan_.last_record) {  // the next is made while this one is on its way
-        made_.block = made_.encoded->find(record_, plan_.last_record);
-        if (!made_.block) {
-            if (Status begun = begin_errand(); !begun) return begun.error();
-        }
-    }
+    if (Status begun = make_block(); !begun) return begun.error();
+    if (!made_.block) return Step::kWait;
+    send(*std::exchange(made_.block, nullptr), event);
+    if (Status begun = make_block(); !begun) return begun.error();  // while this one is on its way
     return Step::kMessage;
+}
+
+/// What comes next, if it is not here: the block that is found, or an errand.
+Status LevelParts::make_block() {
+    if (waiting_ || made_.block || (made_.encoded && record_ == plan_.last_record)) return Done{};
+    if (made_.encoded) made_.block = made_.encoded->find(record_, plan_.last_record);
+    return made_.block ? Status(Done{}) : begin_errand();
 }
 
 void LevelParts::send(RecordBlock block, v1::ProgressiveEvent& event) {
@@ -56,27 +55,29 @@ Status LevelParts::take_made() {
     if (!made) return Done{};
     waiting_ = false;
     if (!*made) return made->error();
-    made_ = **std::move(made);
+    made_.encoded = (*made)->encoded;
+    if ((*made)->base) made_.base = std::move((*made)->base);
+    made_.block = std::move((*made)->block);
     return Done{};
 }
 
 Status LevelParts::begin_errand() {
-    if (waiting_) return Done{};
     waiting_ = true;
-    const auto work = [weak_box = std::weak_ptr(box_), wake = wake_, levels = plan_.levels, choice = choice_, made = made_,
-                       with_base = plan_.with_base, first = record_, last = plan_.last_record]() mutable {
+    const auto work = [weak_box = std::weak_ptr(box_), wake = wake_, levels = plan_.levels, choice = choice_,
+                       encoded = made_.encoded, with_base = plan_.with_base, first = record_, last = plan_.last_record] {
         const std::shared_ptr<MadeBox> box = weak_box.lock();
         if (!box) return;  // nobody waits any more
         box->put(service::guarded([&]() -> Expected<Made> {
-            if (!made.encoded) {
+            Made made{encoded, {}, {}};
+            if (!encoded) {
                 made.encoded = levels->encoded(choice);
                 if (with_base) made.base = wire::pack_base_mesh(levels->mrr(), made.encoded->grid());
             }
-            if (first == last) return std::move(made);
+            if (made.base || first == last) return made;  // the base mesh leaves before the first block is made
             Expected<service::EncodedRecords::Block> block = made.encoded->find_or_make(first, last);
             if (!block) return block.error();
             made.block = *std::move(block);
-            return std::move(made);
+            return made;
         }));
         wake();
     };

@@ -40,6 +40,7 @@ private:
     /// What the stream begins with: the coarsest mesh or a keyframe.
     [[nodiscard]] const TriangleMesh& plain_base() const { return plan_.keyframe ? *plan_.keyframe : plan_.levels->mrr().base; }
     [[nodiscard]] Status take_made();
+    [[nodiscard]] Status make_block();
     [[nodiscard]] Status begin_errand();
     void send(RecordBlock block, v1::ProgressiveEvent& event);
 

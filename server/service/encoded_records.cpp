@@ -8,15 +8,19 @@ namespace {
 /// Blocks usually begin at multiples of it; no reader gets one across, so that the next finds them.
 constexpr std::size_t kUsual = 32768;
 
+/// But the first is short, for it keeps a reader waiting. It makes a stream of 30,000 records a few parts in a thousand longer.
+constexpr std::size_t kFirst = 4096;
+
 /// Records that are rounded and applied at once.
 constexpr std::size_t kStride = 4096;
 
-std::size_t next_multiple(std::size_t record) { return (record / kUsual + 1) * kUsual; }
+std::size_t usual_end_of(std::size_t record) { return record < kFirst ? kFirst : (record / kUsual + 1) * kUsual; }
+bool usually_begins_at(std::size_t record) { return record == kFirst || record % kUsual == 0; }
 
 }  // namespace
 
-EncodedRecords::EncodedRecords(const MultiresMesh& mrr, const EncodingChoice& choice)
-    : mrr_(mrr), grid_(*PositionGrid::over(mrr, choice)), codec_(grid_) {}
+EncodedRecords::EncodedRecords(const MultiresMesh& mrr, const BoundingBox& box, const EncodingChoice& choice)
+    : mrr_(mrr), grid_(*PositionGrid::over(box, choice)), codec_(grid_) {}
 
 EncodedRecords::Block EncodedRecords::find(std::size_t first, std::size_t last) const {
     const std::lock_guard lock(mutex_);
@@ -32,12 +36,12 @@ Expected<EncodedRecords::Block> EncodedRecords::find_or_make(std::size_t first, 
     const std::lock_guard making(making_);
     if (Block found = find(first, last)) return found;
     if (Status moved = move_to(first); !moved) return moved.error();
-    const std::size_t usual_end = std::min(next_multiple(first), mrr_.records.size());
+    const std::size_t usual_end = std::min(usual_end_of(first), mrr_.records.size());
     Expected<RecordBlock> made = codec_.encode(mrr_.records, first, std::min(last, usual_end), *mesh_);
     if (!made) return made.error();
     Block block = std::make_shared<const RecordBlock>(*std::move(made));
     const std::lock_guard lock(mutex_);
-    if (last >= usual_end && (first % kUsual == 0 || begins_.contains(first))) {
+    if (last >= usual_end && (usually_begins_at(first) || begins_.contains(first))) {
         blocks_.emplace(first, block);
         begins_.insert(first + block->count);
     }

@@ -17,8 +17,8 @@ class EncodedRecords {
 public:
     using Block = std::shared_ptr<const RecordBlock>;
 
-    /// \pre choice was checked and is not kFloat64; `mrr` outlives this. O(records).
-    EncodedRecords(const MultiresMesh& mrr, const EncodingChoice& choice);
+    /// \pre choice was checked and is not kFloat64; `box` is box_of_all(mrr); `mrr` outlives this. O(1).
+    EncodedRecords(const MultiresMesh& mrr, const BoundingBox& box, const EncodingChoice& choice);
 
     [[nodiscard]] const PositionGrid& grid() const { return grid_; }
 

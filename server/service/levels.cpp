@@ -30,7 +30,12 @@ std::shared_ptr<const Value> cached(LruCache<Paid<Value>>& cache, std::size_t ke
 }  // namespace
 
 Levels::Levels(MultiresMesh mrr, MemoryBudget& budget)
-    : mrr_(std::move(mrr)), budget_(budget), meshes_(kCachedMeshes), qualities_(kKeptQualities), encoded_(kKeptEncodings) {}
+    : mrr_(std::move(mrr)),
+      box_(box_of_all(mrr_)),
+      budget_(budget),
+      meshes_(kCachedMeshes),
+      qualities_(kKeptQualities),
+      encoded_(kKeptEncodings) {}
 
 std::shared_ptr<const TriangleMesh> Levels::mesh(std::size_t level) const {
     return cached(
@@ -47,7 +52,7 @@ std::shared_ptr<EncodedRecords> Levels::encoded(const EncodingChoice& choice) co
     // Blocks and the mesh they are made with come bit by bit; half of what the representation takes is more than they get.
     const auto half = [this](const std::shared_ptr<EncodedRecords>&) { return memory_of(mrr_) / 2; };
     return *cached(
-        encoded_, key, budget_, [&] { return std::make_shared<EncodedRecords>(mrr_, choice); }, half);
+        encoded_, key, budget_, [&] { return std::make_shared<EncodedRecords>(mrr_, box_, choice); }, half);
 }
 
 }  // namespace vsplit::service

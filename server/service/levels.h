@@ -23,7 +23,7 @@ struct Paid {
 /// for last are kept where memory has room for them. Thread-safe.
 class Levels {
 public:
-    /// `budget` outlives this.
+    /// `budget` outlives this. O(records).
     Levels(MultiresMesh mrr, MemoryBudget& budget);
 
     [[nodiscard]] const MultiresMesh& mrr() const { return mrr_; }
@@ -39,6 +39,7 @@ public:
 
 private:
     const MultiresMesh mrr_;
+    const BoundingBox box_;  // of all positions: every quantised stream begins with it
     MemoryBudget& budget_;
     mutable LruCache<Paid<TriangleMesh>> meshes_;
     mutable LruCache<Quality> qualities_;

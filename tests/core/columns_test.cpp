@@ -45,6 +45,38 @@ TEST(ColumnsTest, BitsComeBackWhateverTheirWidths) {
     }
 }
 
+TEST(ColumnsTest, NumbersComeBackWhateverTheirSize) {
+    std::vector<std::uint32_t> numbers{0, 1, 15, 16, 0xFFFFFFFFU};
+    for (unsigned bit = 4; bit < 32; ++bit) {
+        for (const std::uint32_t beside : {0U, 1U, (1U << bit) - 1U}) numbers.push_back((1U << bit) + beside);
+    }
+    ColumnWriter writer;
+    for (const std::uint32_t number : numbers) writer.number(column::kMoved, number);
+    std::string payload;
+    writer.pack(payload);
+    ColumnReader reader;
+    ASSERT_TRUE(reader.unpack(std::as_bytes(std::span(payload)), kMost));
+    for (const std::uint32_t number : numbers) EXPECT_EQ(reader.number(column::kMoved), number);
+    EXPECT_FALSE(reader.ran_short());
+    EXPECT_TRUE(reader.all_read());
+}
+
+TEST(ColumnsTest, SymbolsBeyondTheLargestAndColumnsWithoutBitsRunShort) {
+    for (const std::uint8_t symbol : std::initializer_list<std::uint8_t>{16, 239, 240, 255}) {
+        ColumnWriter writer;
+        writer.byte(column::kMoved, symbol);
+        if (symbol > Token::kLargest) {
+            for (int n = 0; n < 100; ++n) writer.bits(column::kBits, 0, 32);
+        }
+        std::string payload;
+        writer.pack(payload);
+        ColumnReader reader;
+        ASSERT_TRUE(reader.unpack(std::as_bytes(std::span(payload)), kMost));
+        static_cast<void>(reader.number(column::kMoved));
+        EXPECT_TRUE(reader.ran_short()) << int{symbol};
+    }
+}
+
 TEST(ColumnsTest, EveryBitThatIsLeftOverIsNoticed) {
     for (std::uint32_t bytes = 1; bytes < 20; ++bytes) {
         ColumnWriter writer;

@@ -48,6 +48,38 @@ TEST(ProgressiveMeshTest, EveryLevelIsAClosedManifoldOfTheSameGenus) {
     }
 }
 
+TEST(ProgressiveMeshTest, SplitsWhoseCornersAreKnownMakeTheSameMesh) {
+    for (const test::NamedMesh& m : test::small_meshes()) {
+        SCOPED_TRACE(m.name);
+        const MultiresMesh mrr = make_mrr(m.mesh, 0.2);
+        auto walked = ProgressiveMesh::from_base(mrr.base, mrr.ghosts);
+        auto known = ProgressiveMesh::from_base(mrr.base, mrr.ghosts);
+        ASSERT_TRUE(walked && known);
+        for (const VertexSplit& split : mrr.records.splits()) {
+            std::vector<HalfEdge> corners{split.anchor};
+            while (corners.size() <= split.steps) corners.push_back(known->twins()[prev(corners.back())]);
+            ASSERT_TRUE(walked->refine(split));
+            ASSERT_TRUE(known->refine(split, corners.data()));
+        }
+        EXPECT_TRUE(walked->mesh() == known->mesh());
+        EXPECT_EQ(walked->twins(), known->twins());
+        EXPECT_EQ(walked->border_splits(), known->border_splits());
+    }
+}
+
+TEST(ProgressiveMeshTest, ASplitAtAGhostIsRefusedWhereItsCornersAreKnown) {
+    const TriangleMesh octahedron{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                                  {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+    auto mesh = ProgressiveMesh::from_base(octahedron, 1);
+    ASSERT_TRUE(mesh);
+    const VertexSplit split{0, 1, {1, 0, 0}, {1, 0.1, 0}};
+    const std::vector<HalfEdge> corners{0, mesh->twins()[prev(0)]};
+    const Status refused = mesh->refine(split, corners.data());
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message, "record 0, vertex split: at vertex 0, a ghost");
+    EXPECT_TRUE(mesh->mesh() == octahedron);
+}
+
 /// Moves between levels at random, each time in runs that break anywhere.
 void expect_identity_between_levels(const MultiresMesh& mrr, std::uint64_t seed) {
     test::Random random(seed);

@@ -25,6 +25,11 @@ public:
         return static_cast<std::uint32_t>(sum >> 32);
     }
 
+    /// Of two numbers, in the same way.
+    [[nodiscard]] std::uint32_t operator()(std::uint32_t a, std::uint32_t b) const {
+        return static_cast<std::uint32_t>((keys_[6] + keys_[0] * a + keys_[1] * b) >> 32);
+    }
+
 private:
     std::array<std::uint64_t, 7> keys_;
 };

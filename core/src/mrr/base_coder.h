@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "mesh/half_edges.h"
+#include "mesh/index_table.h"
+#include "mesh/point_hash.h"
 #include "mrr/grid_codes.h"
 #include "mrr/symbols.h"
 
@@ -106,7 +107,7 @@ private:
         if constexpr (!Symbols::kWrites) mesh_.positions.push_back(Vec3::Zero());
         Vec3& position = mesh_.positions[known_];
         for (unsigned axis = 0; axis < 3; ++axis) {
-            const auto at = static_cast<unsigned>(scale >= 0 ? scale : codes_.scale(length, expected[axis]));
+            const unsigned at = scale >= 0 ? static_cast<unsigned>(scale) : codes_.scale(length, expected[axis]);
             if (!code_coordinate(symbols_, codes_, column::kAlong + at, expected[axis], axis, position[axis])) return false;
         }
         ++known_;
@@ -118,15 +119,23 @@ private:
         if constexpr (!Symbols::kWrites) mesh_.faces.push_back(face);
         const HalfEdge first = 3 * coded_++;
         twin_.insert(twin_.end(), 3, kNone);
+        half_edges_.reserve(twin_.size());
         for (const HalfEdge h : {first, next(first), prev(first)}) {
-            const std::uint64_t from = origin(mesh_, h), to = origin(mesh_, next(h));
-            if (!half_edge_.try_emplace(from << 32U | to, h).second) return false;
-            const auto back = half_edge_.find(to << 32U | from);
-            if (back == half_edge_.end()) continue;
-            twin_[h] = back->second;
-            twin_[back->second] = h;
+            const std::uint32_t from = origin(mesh_, h), to = origin(mesh_, next(h));
+            if (find(from, to) != kNone) return false;
+            half_edges_.insert(hash_(from, to), h);
+            const HalfEdge back = find(to, from);
+            if (back == kNone) continue;
+            twin_[h] = back;
+            twin_[back] = h;
         }
         return !symbols_.ran_short();
+    }
+
+    /// Of the half-edges that were coded the one that runs from a vertex to another; kNone where there is none.
+    [[nodiscard]] HalfEdge find(std::uint32_t from, std::uint32_t to) const {
+        return half_edges_.find(hash_(from, to),
+                                [&](HalfEdge h) { return origin(mesh_, h) == from && origin(mesh_, next(h)) == to; });
     }
 
     // Both turn from an open edge on, so they end at another at the latest.
@@ -149,7 +158,8 @@ private:
     std::uint32_t coded_ = 0;  // faces
     std::vector<HalfEdge> gates_;
     std::vector<HalfEdge> twin_;
-    std::unordered_map<std::uint64_t, HalfEdge> half_edge_;  // by origin and end
+    const PointHash hash_;
+    IndexTable half_edges_;  // by origin and end
 };
 
 /// Codes any mesh: indices and coordinates as differences to the ones before.

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mrr/grid_codes.h"
+#include "mrr/look_ahead.h"
 #include "mrr/star.h"
 #include "mrr/symbols.h"
 #include "vsplit/mrr/progressive_mesh.h"
@@ -15,77 +19,105 @@ namespace vsplit {
 
 /// Codes one record after the other relative to the mesh it is applied to, and applies it. What is predicted depends on the mesh
 /// as it stands and on the records of the block before; the mesh is the same whichever way it was reached.
+///
+/// `code`, writing, takes the record and rounds its positions; reading, it fills the record in. \return false, and error() says
+/// why, where it does not fit: a Status for each would cost more than the record.
 template <class Symbols, class Codes>
 class BlockCoder {
 public:
     BlockCoder(Symbols symbols, const Codes& codes, ProgressiveMesh& mesh) : symbols_(symbols), codes_(codes), mesh_(mesh) {}
 
     /// Reading only: takes the places of all splits of the block at once, so that the mesh around the next ones can be fetched
-    /// from memory while one is decoded. Beyond the caches that is most of the time.
+    /// from memory while one is decoded.
     void read_places(std::size_t splits) {
         places_.resize(splits);
         std::uint32_t count = mesh_.mesh().vertex_count();
         for (std::uint32_t& place : places_) place = read_place(count++);
-        for (std::size_t n = 0; n < std::min(splits, kAhead); ++n) send_ahead(n);
+        std::vector<std::uint32_t> far;
+        std::copy_if(places_.begin(), places_.end(), std::back_inserter(far),
+                     [](std::uint32_t place) { return place < kIsBeside; });
+        look_ahead_.begin(LookAhead::By::kVertex, std::move(far));
     }
 
-    /// Writing: takes the record and rounds its positions. Reading: fills it in. \return CORRUPT where it does not fit.
-    Status code(VertexSplit& split) {
+    /// Writing only: the splits that come, for the same reason.
+    void foresee(std::span<const VertexSplit> splits) {
+        std::vector<HalfEdge> anchors;
+        anchors.reserve(splits.size());
+        for (const VertexSplit& split : splits) anchors.push_back(split.anchor);
+        look_ahead_.begin(LookAhead::By::kCorner, std::move(anchors));
+    }
+
+    [[nodiscard]] const Error& error() const { return error_; }
+
+    [[nodiscard]] bool code(VertexSplit& split) {
         std::uint32_t vertex = 0;
         if constexpr (Symbols::kWrites) {
+            look_ahead_.advance();
             vertex = origin(mesh_.mesh(), split.anchor);
             write_place(vertex);
         } else {
             vertex = next_place();
-            if (vertex >= mesh_.mesh().vertex_count()) return bad("a vertex that is not there");
+            if (vertex >= mesh_.mesh().vertex_count()) [[unlikely]]
+                return bad("a vertex that is not there");
         }
         star_.gather(mesh_, vertex);
-        if (!code_fan(split)) return bad("a fan that is none of the vertex");
+        if (!code_fan(split)) [[unlikely]]
+            return bad("a fan that is none of the vertex");
         code_positions(split);
-        if (!in_range_) return bad("a position that is not on the grid");
+        if (!in_range_) [[unlikely]]
+            return bad("a position that is not on the grid");
         const std::uint32_t added = mesh_.mesh().vertex_count();
-        if (Status taken = mesh_.refine(split); !taken) return taken;
+        if (!taken(mesh_.refine(split, star_.corners()))) return false;
         note_beside(vertex, added);
         last_moved_ = kNone;
-        return Done{};
+        return true;
     }
 
-    Status code(EdgeFlip& flip) {
+    [[nodiscard]] bool code(EdgeFlip& flip) {
         code_uniform(symbols_, column::kFlip, flip.half_edge, static_cast<std::uint32_t>(mesh_.twins().size()));
-        if (Status taken = mesh_.refine(flip); !taken) return taken;
-        beside_.clear();
-        for (const HalfEdge side : {flip.half_edge, mesh_.twins()[flip.half_edge]}) {
-            beside_.push_back(origin(mesh_.mesh(), side));
-            beside_.push_back(origin(mesh_.mesh(), prev(side)));
-        }
+        if (!taken(mesh_.refine(flip))) return false;
+        const HalfEdge twin = mesh_.twins()[flip.half_edge];
+        beside_count_ = 0;
+        for (const HalfEdge corner : {flip.half_edge, prev(flip.half_edge), twin, prev(twin)})
+            beside_[beside_count_++] = origin(mesh_.mesh(), corner);
         last_moved_ = kNone;
-        return Done{};
+        return true;
     }
 
-    Status code(VertexMove& move) {
+    [[nodiscard]] bool code(VertexMove& move) {
         std::uint32_t step = to_zigzag(static_cast<std::int32_t>(move.vertex - last_moved_ - 1));  // ascending: 0
         symbols_.number(column::kMoved, step);
         move.vertex = last_moved_ + 1 + static_cast<std::uint32_t>(from_zigzag(step));
         if (move.vertex >= mesh_.mesh().vertex_count()) return bad("a vertex that is not there");
         last_moved_ = move.vertex;
         star_.gather(mesh_, move.vertex);
-        code_point(StarFrame(star_), {}, 0, move.position, column::kMoveAlong, column::kMoveAcross);
+        const StarFrame frame(star_);
+        code_point(frame, columns(frame, column::kMoveAlong, column::kMoveAcross), {}, 0, move.position);
         if (!in_range_) return bad("a position that is not on the grid");
-        return mesh_.refine(move);
+        return taken(mesh_.refine(move));
     }
 
 private:
     static constexpr std::uint32_t kBeside = 128;  // symbols from here on name a vertex beside the record before
     static constexpr std::uint32_t kMostCodedFan = 10;
     static constexpr std::uint32_t kIsBeside = 0xFFFFFF00U;
-    static constexpr std::size_t kAhead = 8;  // as many steps go around most vertices
 
-    static Status bad(const char* what) { return Error{Cause::kCorrupt, what, ""}; }
+    bool bad(const char* what) {
+        error_ = {Cause::kCorrupt, what, ""};
+        return false;
+    }
+    bool taken(const Status& status) {
+        if (status) [[likely]]
+            return true;
+        error_ = status.error();
+        return false;
+    }
 
     void write_place(std::uint32_t vertex) {
         const unsigned low = low_bits(mesh_.mesh().vertex_count());
-        const auto rank = static_cast<std::uint32_t>(std::find(beside_.begin(), beside_.end(), vertex) - beside_.begin());
-        std::uint32_t symbol = rank < beside_.size() ? kBeside + rank : vertex >> low;
+        const auto* const end = beside_.data() + beside_count_;
+        const auto* const found = std::find<const std::uint32_t*>(beside_.data(), end, vertex);
+        std::uint32_t symbol = found != end ? kBeside + static_cast<std::uint32_t>(found - beside_.data()) : vertex >> low;
         symbols_.byte(column::kPlace, symbol);
         std::uint32_t rest = vertex & ((1U << low) - 1);
         if (symbol < kBeside) symbols_.bits(column::kPlaceBits, rest, low);
@@ -103,38 +135,12 @@ private:
 
     /// kNone where there is no such vertex.
     std::uint32_t next_place() {
-        if (next_ + kAhead < places_.size()) send_ahead(next_ + kAhead);
-        for (Walker& walker : walkers_) step(walker);
         const std::uint32_t place = places_[next_++];
-        if (place < kIsBeside) return place;
-        return place - kIsBeside < beside_.size() ? beside_[place - kIsBeside] : kNone;
-    }
-
-    /// Walks around a vertex that is split later, a step a record, and asks for the memory of the next step. The mesh changes
-    /// under it, so it may miss something; it reads nothing that is not there.
-    struct Walker {
-        std::uint32_t vertex = kNone;
-        HalfEdge corner = kNone;
-    };
-
-    void send_ahead(std::size_t n) {
-        Walker& walker = walkers_[n % kAhead];
-        walker = {};
-        if (places_[n] >= mesh_.mesh().vertex_count()) return;
-        walker.vertex = places_[n];
-        mesh_.prefetch_corner_of(walker.vertex);
-        mesh_.prefetch_position(walker.vertex);
-    }
-
-    void step(Walker& walker) {
-        if (walker.vertex == kNone) return;
-        if (walker.corner == kNone) {
-            walker.corner = mesh_.corner_of(walker.vertex);
-        } else {
-            mesh_.prefetch_position(origin(mesh_.mesh(), next(walker.corner)));
-            walker.corner = mesh_.twins()[prev(walker.corner)];
+        if (place < kIsBeside) {
+            look_ahead_.advance();
+            return place;
         }
-        mesh_.prefetch_corner(walker.corner);
+        return place - kIsBeside < beside_count_ ? beside_[place - kIsBeside] : kNone;
     }
 
     /// Where the fan that goes over begins and how many faces it has; leaves the star turned to its beginning.
@@ -153,7 +159,7 @@ private:
         }
         if (turn >= valence || more + 1 >= valence) return false;
         star_.turn(turn);
-        split.anchor = star_[0].corner;
+        split.anchor = star_.corners()[0];
         split.steps = more + 1;
         return true;
     }
@@ -162,57 +168,68 @@ private:
     /// to meshes of all kinds and are part of the format.
     void code_positions(VertexSplit& split) {
         const StarFrame frame(star_);
+        const Columns to = columns(frame, column::kAlong, column::kAcross);
         const Offset fan = mean_offset(0, split.steps);
         const Offset rest = mean_offset(split.steps, star_.valence());
         Offset ends{}, guess{};
         for (int axis = 0; axis < 3; ++axis) {
-            ends[axis] = (star_[0].offset[axis] + star_[split.steps].offset[axis]) * 0.5;
+            ends[axis] = (star_.offsets()[0][axis] + star_.offsets()[split.steps][axis]) * 0.5;
             guess[axis] = (0.5 * fan[axis] - 0.2 * rest[axis]) + 0.15 * ends[axis];
         }
         const bool plane = frame.has_plane();
         const double fan_height = plane ? frame.height(fan) : 0;
         const double rest_height = plane ? frame.height(rest) : 0;
         const double ends_height = plane ? frame.height(ends) : 0;
-        code_point(frame, guess, (0.35 * fan_height - 0.15 * rest_height) + 0.1 * ends_height, split.added, column::kAlong,
-                   column::kAcross);
+        code_point(frame, to, guess, (0.35 * fan_height - 0.15 * rest_height) + 0.1 * ends_height, split.added);
         Offset added{};
         for (int axis = 0; axis < 3; ++axis) {
             added[axis] = split.added[axis] - star_.centre[axis];
             guess[axis] = ((0.55 * rest[axis] - 0.4 * fan[axis]) + 0.1 * ends[axis]) + 0.4 * added[axis];
         }
         const double added_height = plane ? frame.height(added) : 0;
-        code_point(frame, guess, ((0.5 * rest_height - 0.35 * fan_height) + 0.05 * ends_height) + 0.4 * added_height, split.kept,
-                   column::kAlong, column::kAcross);
+        code_point(frame, to, guess, ((0.5 * rest_height - 0.35 * fan_height) + 0.05 * ends_height) + 0.4 * added_height,
+                   split.kept);
     }
 
     /// Of the neighbours from `first` to `last`, both included.
     Offset mean_offset(std::uint32_t first, std::uint32_t last) const {
-        Offset sum{};
-        const Star::Spoke* const spokes = &star_[0];
+        const Offset* const offsets = star_.offsets();
+        double x = 0, y = 0, z = 0;
         for (std::uint32_t n = first; n <= last; ++n) {
-            const Offset& offset = spokes[n].offset;
-            for (int axis = 0; axis < 3; ++axis) sum[axis] += offset[axis];
+            x += offsets[n][0];
+            y += offsets[n][1];
+            z += offsets[n][2];
         }
         const double count = last - first + 1;
-        for (double& value : sum) value /= count;
-        return sum;
+        return {x / count, y / count, z / count};
+    }
+
+    /// Where the coordinates of a point go: along the two axes of the plane, and across it.
+    struct Columns {
+        unsigned u = 0, v = 0, w = 0;
+    };
+
+    Columns columns(const StarFrame& frame, unsigned along, unsigned across) const {
+        const auto along_axis = [&](unsigned axis) { return along + codes_.scale(frame.reach[axis], star_.centre[axis]); };
+        const unsigned w = frame.across;
+        return {along_axis((w + 1) % 3), along_axis((w + 2) % 3),
+                frame.has_plane() ? across + codes_.scale(frame.thickness, star_.centre[w]) : along_axis(w)};
     }
 
     /// `guess` is an offset from the centre, `height` one over the plane: the two coordinates along the plane come first, and
     /// with them the plane says where to expect the third.
-    void code_point(const StarFrame& frame, const Offset& guess, double height, Vec3& point, unsigned along, unsigned across) {
+    void code_point(const StarFrame& frame, const Columns& to, const Offset& guess, double height, Vec3& point) {
         const Offset& centre = star_.centre;
         const unsigned u = (frame.across + 1) % 3, v = (frame.across + 2) % 3, w = frame.across;
-        for (const unsigned axis : {u, v}) {
-            put(along + codes_.scale(frame.reach[axis], centre[axis]), centre[axis] + guess[axis], axis, point);
-        }
+        put(to.u, centre[u] + guess[u], u, point);
+        put(to.v, centre[v] + guess[v], v, point);
         if (!frame.has_plane()) {
-            put(along + codes_.scale(frame.reach[w], centre[w]), centre[w] + guess[w], w, point);
+            put(to.w, centre[w] + guess[w], w, point);
             return;
         }
         const double slope =
             (frame.normal[u] * (point[u] - centre[u]) + frame.normal[v] * (point[v] - centre[v])) / frame.normal[w];
-        put(across + codes_.scale(frame.thickness, centre[w]), (centre[w] - slope) + height, w, point);
+        put(to.w, (centre[w] - slope) + height, w, point);
     }
 
     void put(unsigned column, double expected, unsigned axis, Vec3& point) {
@@ -221,20 +238,22 @@ private:
 
     void note_beside(std::uint32_t vertex, std::uint32_t added) {
         const std::uint32_t most = std::min(star_.valence(), kBeside - 2);
-        beside_.resize(2 + most);
+        beside_count_ = 2 + most;
         beside_[0] = vertex;
         beside_[1] = added;
-        for (std::uint32_t n = 0; n < most; ++n) beside_[2 + n] = star_[n].vertex;
+        for (std::uint32_t n = 0; n < most; ++n) beside_[2 + n] = star_.vertices()[n];
     }
 
     Symbols symbols_;
     const Codes codes_;
     ProgressiveMesh& mesh_;
     Star star_;
-    std::vector<std::uint32_t> beside_;
+    Error error_{};
+    std::array<std::uint32_t, kBeside> beside_{};
+    std::uint32_t beside_count_ = 0;
     std::vector<std::uint32_t> places_;
     std::size_t next_ = 0;
-    std::array<Walker, kAhead> walkers_{};
+    LookAhead look_ahead_{mesh_};
     std::uint32_t last_moved_ = kNone;  // so that the first move counts from vertex 0
     bool in_range_ = true;
 };

@@ -46,30 +46,20 @@ private:
 
 }  // namespace
 
-void ColumnWriter::bits(unsigned column, std::uint32_t value, unsigned width) {
-    Bits& to = bits_[column - column::kBits];
-    to.pending |= std::uint64_t{value} << to.width;
-    to.width += width;
-    for (; to.width >= 8; to.width -= 8, to.pending >>= 8U) to.packed.push_back(static_cast<char>(to.pending & 0xFFU));
-}
-
-void ColumnWriter::number(unsigned column, std::uint32_t value) {
-    const Token token = Token::of(value);
-    byte(column, token.symbol);
-    bits(column::kBits, token.rest, token.bits);
-}
-
 void ColumnWriter::clear() {
-    for (std::string& column : columns_) column.clear();
-    bits_ = {};
+    for (std::vector<std::uint8_t>& column : columns_) column.clear();
+    for (Bits& bits : bits_) {
+        bits.packed.clear();
+        bits.pending = bits.width = 0;
+    }
 }
 
 void ColumnWriter::pack(std::string& payload) {
-    std::string compressed;
-    const auto put = [&payload](unsigned number, bool is_compressed, const std::string& bytes) {
+    std::vector<std::uint8_t> compressed;
+    const auto put = [&payload](unsigned number, bool is_compressed, std::span<const std::uint8_t> bytes) {
         payload.push_back(static_cast<char>(number));
         append_varint(payload, bytes.size() * 2 + (is_compressed ? 1 : 0));
-        payload += bytes;
+        payload.append(bytes.begin(), bytes.end());
     };
     for (unsigned c = 0; c < column::kCount; ++c) {
         if (columns_[c].empty()) continue;
@@ -77,12 +67,11 @@ void ColumnWriter::pack(std::string& payload) {
         const std::size_t size = ZSTD_compressCCtx(zstd_.get(), compressed.data(), compressed.size(), columns_[c].data(),
                                                    columns_[c].size(), kZstdLevel);
         const bool shorter = ZSTD_isError(size) == 0U && size < columns_[c].size();
-        if (shorter) compressed.resize(size);
-        put(c, shorter, shorter ? compressed : columns_[c]);
+        put(c, shorter, shorter ? std::span(compressed).first(size) : std::span(columns_[c]));
     }
     for (unsigned c = column::kBits; c < column::kAll; ++c) {
-        const Bits& of = bits_[c - column::kBits];
-        if (of.width > 0) bits(c, 0, 8 - of.width);
+        Bits& of = bits_[c - column::kBits];
+        of.put((of.width + 7) / 8);
         if (!of.packed.empty()) put(c, false, of.packed);
     }
 }
@@ -117,9 +106,9 @@ Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most
         stored.push_back(next);
     }
     columns_ = {};
-    pending_ = {};
     short_ = false;
-    unpacked_.resize(total);
+    unpacked_.resize(total + sizeof(std::uint64_t));
+    bits_.fill({std::as_bytes(std::span(unpacked_)).data() + total, 0, 0});
     std::uint8_t* to = unpacked_.data();
     for (const Stored& column : stored) {
         if (column.compressed) {
@@ -129,14 +118,21 @@ Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most
             std::transform(column.bytes.begin(), column.bytes.end(), to,
                            [](std::byte byte) { return static_cast<std::uint8_t>(byte); });
         }
-        columns_[column.column] = {to, to + column.size};
+        if (column.column < column::kCount) {
+            columns_[column.column] = {to, to + column.size};
+        } else {
+            bits_[column.column - column::kBits] = {std::as_bytes(std::span(to, column.size)).data(), 0, 8 * column.size};
+        }
         to += column.size;
     }
     return Done{};
 }
 
 bool ColumnReader::all_read() const {
-    return std::all_of(pending_.begin(), pending_.end(), [](const Pending& at) { return at.bits == 0 && at.width < 8; }) &&
+    const auto only_fills_up = [](const BitCursor& at) {
+        return at.next == at.end || (at.end - at.next < 8 && static_cast<unsigned>(at.bytes[at.end / 8 - 1]) >> at.next % 8 == 0);
+    };
+    return std::all_of(bits_.begin(), bits_.end(), only_fills_up) &&
            std::all_of(columns_.begin(), columns_.end(), [](const Cursor& at) { return at.next == at.end; });
 }
 

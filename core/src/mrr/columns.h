@@ -2,6 +2,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/byte_order.h"
 #include "vsplit/base/expected.h"
 
 namespace vsplit {
@@ -46,13 +48,28 @@ struct Token {
         const auto symbol = static_cast<std::uint8_t>(16 + (top - 4) * 8 + (value >> bits & 7U));
         return {symbol, static_cast<std::uint8_t>(bits), value & ((1U << bits) - 1)};
     }
-    /// How many bits follow a symbol.
-    [[nodiscard]] static unsigned bits_after(std::uint8_t symbol) { return symbol < 16 ? 0 : (symbol - 16U) / 8 + 1; }
-    [[nodiscard]] static std::uint32_t value(std::uint8_t symbol, std::uint32_t rest) {
-        return symbol < 16 ? symbol : (8U | (symbol & 7U)) << bits_after(symbol) | rest;
-    }
     static constexpr std::uint8_t kLargest = 16 + 27 * 8 + 7;
 };
+
+/// The values of all symbols without their bits, for a reader that asks no symbol how large it is. Those beyond the largest want
+/// more bits than there are anywhere.
+struct TokenTable {
+    struct Entry {
+        std::uint32_t value = 0;
+        std::uint32_t bits = 0;
+    };
+    std::array<Entry, 256> entries{};
+
+    constexpr TokenTable() {
+        for (unsigned symbol = 0; symbol < entries.size(); ++symbol) {
+            const unsigned bits = symbol < 16 ? 0 : (symbol - 16) / 8 + 1;
+            entries[symbol] = symbol < 16                ? Entry{symbol, 0}
+                              : symbol > Token::kLargest ? Entry{0, 0xFFFFFFFFU}
+                                                         : Entry{(8U | (symbol & 7U)) << bits, bits};
+        }
+    }
+};
+inline constexpr TokenTable kTokens;
 
 /// Numbers with a sign as numbers without: 0, -1, 1, -2, 2 ...
 [[nodiscard]] inline std::uint32_t to_zigzag(std::int32_t value) {
@@ -71,21 +88,35 @@ struct Token {
 /// Collects columns and packs them.
 class ColumnWriter {
 public:
-    void byte(unsigned column, std::uint8_t symbol) { columns_[column].push_back(static_cast<char>(symbol)); }
+    void byte(unsigned column, std::uint8_t symbol) { columns_[column].push_back(symbol); }
     /// Column kBits or kPlaceBits. \pre width <= 32, value < 2^width.
-    void bits(unsigned column, std::uint32_t value, unsigned width);
-    void number(unsigned column, std::uint32_t value);
+    void bits(unsigned column, std::uint32_t value, unsigned width) {
+        Bits& to = bits_[column - column::kBits];
+        to.pending |= std::uint64_t{value} << to.width;
+        to.width += width;
+        if (to.width >= 32) to.put(4);
+    }
+    void number(unsigned column, std::uint32_t value) {
+        const Token token = Token::of(value);
+        byte(column, token.symbol);
+        bits(column::kBits, token.rest, token.bits);
+    }
     void clear();
 
     /// Appends the columns that are not empty, each compressed by zstd where that is shorter, to `payload`.
     void pack(std::string& payload);
 
 private:
-    std::array<std::string, column::kCount> columns_;
+    std::array<std::vector<std::uint8_t>, column::kCount> columns_;
     struct Bits {
-        std::string packed;
+        std::vector<std::uint8_t> packed;
         std::uint64_t pending = 0;
-        unsigned width = 0;
+        unsigned width = 0;  ///< less than 32 before more come
+
+        void put(unsigned bytes) {
+            for (unsigned n = 0; n < bytes; ++n, pending >>= 8U) packed.push_back(static_cast<std::uint8_t>(pending & 0xFFU));
+            width -= std::min(width, 8 * bytes);
+        }
     };
     std::array<Bits, column::kAll - column::kBits> bits_;
     struct Free {
@@ -102,7 +133,7 @@ public:
 
     [[nodiscard]] std::uint8_t byte(unsigned column) {
         Cursor& at = columns_[column];
-        if (at.next == at.end) {
+        if (at.next == at.end) [[unlikely]] {
             short_ = true;
             return 0;
         }
@@ -110,26 +141,24 @@ public:
     }
     /// Column kBits or kPlaceBits. \pre width <= 32.
     [[nodiscard]] std::uint32_t bits(unsigned column, unsigned width) {
-        Pending& pending = pending_[column - column::kBits];
-        while (pending.width < width) {
-            Cursor& at = columns_[column];
-            std::uint64_t more = 0;
-            if (at.next == at.end) {
-                short_ = true;
-            } else {
-                more = *at.next++;
-            }
-            pending.bits |= more << pending.width;
-            pending.width += 8;
+        BitCursor& at = bits_[column - column::kBits];
+        if (at.end - at.next < width) [[unlikely]] {
+            short_ = true;
+            return 0;
         }
-        const auto value = static_cast<std::uint32_t>(pending.bits & ((std::uint64_t{1} << width) - 1));
-        pending.bits >>= width;
-        pending.width -= width;
-        return value;
+        const auto word = load<std::uint64_t>(at.bytes + at.next / 8) >> at.next % 8;
+        at.next += width;
+        return static_cast<std::uint32_t>(word & ((std::uint64_t{1} << width) - 1));
     }
     [[nodiscard]] std::uint32_t number(unsigned column) {
-        const std::uint8_t symbol = byte(column);
-        return symbol < 16 ? symbol : large_number(symbol);
+        const TokenTable::Entry token = kTokens.entries[byte(column)];
+        return token.value | bits(column::kBits, token.bits);
+    }
+    /// All symbols of a column, which then are read.
+    [[nodiscard]] std::span<const std::uint8_t> take(unsigned column) {
+        const std::span all = rest(column);
+        columns_[column].next = columns_[column].end;
+        return all;
     }
     /// Symbols of a column that are left.
     [[nodiscard]] std::span<const std::uint8_t> rest(unsigned column) const {
@@ -146,18 +175,16 @@ private:
         const std::uint8_t* next = nullptr;
         const std::uint8_t* end = nullptr;
     };
-    [[nodiscard]] std::uint32_t large_number(std::uint8_t symbol) {
-        if (symbol > Token::kLargest) short_ = true;
-        return Token::value(symbol, bits(column::kBits, Token::bits_after(symbol)));
-    }
-
-    std::array<Cursor, column::kAll> columns_{};
-    std::vector<std::uint8_t> unpacked_;
-    struct Pending {
-        std::uint64_t bits = 0;
-        unsigned width = 0;
+    /// `next` and `end` count bits; eight bytes can be read at each.
+    struct BitCursor {
+        const std::byte* bytes = nullptr;
+        std::size_t next = 0;
+        std::size_t end = 0;
     };
-    std::array<Pending, column::kAll - column::kBits> pending_{};
+
+    std::array<Cursor, column::kCount> columns_{};
+    std::array<BitCursor, column::kAll - column::kBits> bits_{};
+    std::vector<std::uint8_t> unpacked_;
     bool short_ = false;
     struct Free {
         void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }

@@ -40,9 +40,9 @@ public:
     /// Whether it is that of a coordinate a mesh may have.
     [[nodiscard]] static bool holds(std::uint32_t code) { return is_valid_coordinate(value(code, 0)); }
     /// Floats have 23 bits after the first: one near `at` is 2^-23 of it wide.
-    [[nodiscard]] static int scale(double length, double at) {
+    [[nodiscard]] static unsigned scale(double length, double at) {
         if (length == 0) return 0;
-        return std::clamp(exponent_field(length) - exponent_field(at) + 24, 0, kScales - 1);
+        return static_cast<unsigned>(std::clamp(exponent_field(length) - exponent_field(at) + 24, 0, kScales - 1));
     }
 };
 
@@ -52,7 +52,8 @@ public:
         : origin_{grid.origin().x(), grid.origin().y(), grid.origin().z()},
           step_(grid.step()),
           per_unit_(1 / grid.step()),
-          most_(static_cast<double>((std::uint64_t{1} << grid.bits()) - 1)) {}
+          most_code_((std::uint32_t{1} << grid.bits()) - 1),
+          most_(most_code_) {}
 
     [[nodiscard]] std::uint32_t code(double value, unsigned axis) const {
         const double upper =
@@ -60,15 +61,16 @@ public:
         return static_cast<std::uint32_t>(std::min(std::max(upper, 0.0), most_));
     }
     [[nodiscard]] double value(std::uint32_t code, unsigned axis) const { return origin_[axis] + code * step_; }
-    [[nodiscard]] int scale(double length, double /*at*/) const {
-        return std::clamp(exponent_field(length * per_unit_) - 1022, 0, kScales - 1);
+    [[nodiscard]] unsigned scale(double length, double /*at*/) const {
+        return static_cast<unsigned>(std::clamp(exponent_field(length * per_unit_) - 1022, 0, kScales - 1));
     }
-    [[nodiscard]] bool holds(std::uint32_t code) const { return code <= most_; }
+    [[nodiscard]] bool holds(std::uint32_t code) const { return code <= most_code_; }
 
 private:
     double origin_[3];
     double step_;
     double per_unit_;
+    std::uint32_t most_code_;
     double most_;
 };
 

@@ -61,11 +61,14 @@ Expected<PositionGrid> PositionGrid::quantised(std::uint32_t bits, const Vec3& o
 }
 
 Expected<PositionGrid> PositionGrid::over(const MultiresMesh& mrr, const EncodingChoice& choice) {
+    return over(choice.encoding == RecordEncoding::kQuantised ? box_of_all(mrr) : BoundingBox(), choice);
+}
+
+Expected<PositionGrid> PositionGrid::over(const BoundingBox& box, const EncodingChoice& choice) {
     const Expected<EncodingChoice> checked = check_encoding(choice);
     if (!checked) return checked.error();
     if (checked->encoding == RecordEncoding::kFloat64) return PositionGrid();
     if (checked->encoding == RecordEncoding::kFloat32) return float32();
-    const BoundingBox box = box_of_all(mrr);
     const double side = (box.max - box.min).maxCoeff();
     const double step = side / static_cast<double>((std::uint64_t{1} << checked->bits) - 1);
     // All points are one, or so near each other that a double cannot divide the distance.

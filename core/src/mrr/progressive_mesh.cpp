@@ -4,8 +4,10 @@
 #include <cassert>
 #include <string>
 
+#include "base/huge_pages.h"
 #include "mesh/cap_boundaries.h"
 #include "mesh/coordinate.h"
+#include "mesh/corners.h"
 #include "mesh/half_edges.h"
 #include "mesh/turn_edge.h"
 #include "vsplit/mesh/inspect.h"
@@ -20,11 +22,17 @@ const char* name_of(const VertexSplit& /*record*/) { return "vertex split"; }
 const char* name_of(EdgeFlip /*record*/) { return "edge flip"; }
 const char* name_of(const VertexMove& /*record*/) { return "vertex move"; }
 
-/// Room for `more`, growing by half at least: reserving exactly for every block would copy all of it for every block.
+/// Room for `more`, twice as much at least: reserving exactly for every block would copy all of it for every block.
 template <class Element>
 void make_room(std::vector<Element>& elements, std::size_t more) {
     const std::size_t needed = elements.size() + more;
-    if (needed > elements.capacity()) elements.reserve(std::max(needed, elements.capacity() + elements.capacity() / 2));
+    if (needed <= elements.capacity()) return;
+    const std::size_t room = std::max(needed, 2 * elements.capacity());
+    std::vector<Element> larger;
+    larger.reserve(room);
+    prefer_huge_pages(larger.data(), room * sizeof(Element));
+    larger.insert(larger.end(), elements.begin(), elements.end());
+    elements.swap(larger);
 }
 
 Status check_indices_and_coordinates(const TriangleMesh& mesh) {
@@ -75,30 +83,38 @@ Expected<ProgressiveMesh> ProgressiveMesh::from_base(TriangleMesh base, std::uin
     return result;
 }
 
-Status ProgressiveMesh::check(const VertexSplit& split) const {
+Status ProgressiveMesh::find_fan(const VertexSplit& split) {
     if (split.anchor >= twin_.size()) {
         return corrupt("anchor " + std::to_string(split.anchor) + " is no corner; the mesh has " + std::to_string(twin_.size()));
     }
-    if (!is_valid_position(split.kept) || !is_valid_position(split.added)) {
-        return corrupt("a coordinate is not finite or beyond 1e15");
-    }
     if (split.steps == 0) return corrupt("0 steps; at least one face must move");
-    if (is_ghost(origin(mesh_, split.anchor)))
-        return corrupt("at vertex " + std::to_string(origin(mesh_, split.anchor)) + ", a ghost");
     HalfEdge corner = split.anchor;
-    HalfEdge fan_end = kNone;
+    fan_.assign(1, corner);
     for (std::uint32_t step = 0; step < split.steps; ++step) {
-        fan_end = prev(corner);
-        corner = twin_[fan_end];
+        corner = twin_[prev(corner)];
         if (corner == split.anchor) {
             return corrupt(std::to_string(split.steps) + " steps around a vertex of valence " + std::to_string(step + 1) +
                            "; at most valence - 1 are possible");
         }
-    }
-    if (is_ghost(origin(mesh_, fan_end)) && is_ghost(origin(mesh_, next(split.anchor)))) {
-        return corrupt("between two ghosts; it would make an edge without a visible face");
+        fan_.push_back(corner);
     }
     return Done{};
+}
+
+bool ProgressiveMesh::is_beside_ghosts(const VertexSplit& split, const HalfEdge* corners) const {
+    if (is_ghost(origin(mesh_, corners[0]))) return true;
+    return is_ghost(origin(mesh_, next(corners[0]))) && is_ghost(origin(mesh_, prev(corners[split.steps - 1])));
+}
+
+Status ProgressiveMesh::check(const VertexSplit& split) {
+    if (Status found = find_fan(split); !found) return found;
+    if (!is_valid_position(split.kept) || !is_valid_position(split.added)) {
+        return corrupt("a coordinate is not finite or beyond 1e15");
+    }
+    if (!is_beside_ghosts(split, fan_.data())) return Done{};
+    const std::uint32_t vertex = origin(mesh_, split.anchor);
+    if (is_ghost(vertex)) return corrupt("at vertex " + std::to_string(vertex) + ", a ghost");
+    return corrupt("between two ghosts; it would make an edge without a visible face");
 }
 
 bool ProgressiveMesh::has_valence_of(std::uint32_t least, HalfEdge corner) const {
@@ -158,18 +174,24 @@ Status ProgressiveMesh::check(const VertexMove& move) const {
 
 template <class AnyRecord>
 Status ProgressiveMesh::take(const AnyRecord& record) {
-    if (Status valid = check(record); !valid) {
-        Error error = valid.error();
-        error.message = "record " + std::to_string(records()) + ", " + name_of(record) + ": " + error.message;
-        return error;
+    if (check(record)) {
+        apply(record);
+        return Done{};
     }
-    apply(record);
-    return Done{};
+    return refuse(record);
+}
+
+template <class AnyRecord>
+Status ProgressiveMesh::refuse(const AnyRecord& record) {
+    Error error = check(record).error();
+    error.message = "record " + std::to_string(records()) + ", " + name_of(record) + ": " + error.message;
+    return error;
 }
 
 template Status ProgressiveMesh::take(const VertexSplit& record);
 template Status ProgressiveMesh::take(const EdgeFlip& record);
 template Status ProgressiveMesh::take(const VertexMove& record);
+template Status ProgressiveMesh::refuse(const VertexSplit& record);
 
 void ProgressiveMesh::reserve(std::size_t splits, std::size_t flips, std::size_t moves) {
     make_room(mesh_.positions, splits);
@@ -215,29 +237,24 @@ void ProgressiveMesh::apply(const VertexMove& move) {
     applied_.push_back(RecordKind::kMove);
 }
 
-void ProgressiveMesh::apply(const VertexSplit& split) {
-    const std::uint32_t v = origin(mesh_, split.anchor);
+void ProgressiveMesh::apply(const VertexSplit& split, const HalfEdge* corners) {
+    const HalfEdge fan_begin = corners[0];                    // v -> b, soon w -> b
+    const HalfEdge fan_end = prev(corners[split.steps - 1]);  // e -> v, soon e -> w
+    const HalfEdge after = corners[split.steps];              // v -> e
+    const HalfEdge before = twin_[fan_begin];                 // b -> v
+    std::uint32_t* vertex_at = corners_of(mesh_.faces);
+    const std::uint32_t v = vertex_at[fan_begin];
     const std::uint32_t w = mesh_.vertex_count();
-
-    // The fan that moves: it begins at the edge (v, b) and ends at (v, e).
-    const HalfEdge fan_begin = split.anchor;   // v -> b, soon w -> b
-    const HalfEdge before = twin_[fan_begin];  // b -> v
-    HalfEdge fan_end = kNone;                  // e -> v, soon e -> w
-    HalfEdge after = fan_begin;                // v -> e, once the fan is walked
-    for (std::uint32_t step = 0; step < split.steps; ++step) {
-        mesh_.faces[face_of(after)][after % 3] = w;
-        fan_end = prev(after);
-        after = twin_[fan_end];
-    }
-    const std::uint32_t b = origin(mesh_, before);
-    const std::uint32_t e = origin(mesh_, fan_end);
+    const std::uint32_t b = vertex_at[before];
+    const std::uint32_t e = vertex_at[fan_end];
+    for (std::uint32_t n = 0; n < split.steps; ++n) vertex_at[corners[n]] = w;
 
     const auto first = static_cast<HalfEdge>(twin_.size());
     const HalfEdge vw = first, we = first + 1, ev = first + 2;
     const HalfEdge wv = first + 3, vb = first + 4, bw = first + 5;
     mesh_.faces.push_back({v, w, e});
     mesh_.faces.push_back({w, v, b});
-    twin_.insert(twin_.end(), {wv, fan_end, after, vw, before, fan_begin});
+    for (const HalfEdge twin : {wv, fan_end, after, vw, before, fan_begin}) twin_.push_back(twin);
     twin_[fan_end] = we;
     twin_[after] = ev;
     twin_[before] = vb;

@@ -49,12 +49,12 @@ template <class Codes>
 Status RecordCodec::Impl::write(const RecordSpan& records, ProgressiveMesh& mesh) {
     BlockCoder<SymbolWriter, Codes> coder(SymbolWriter(writer), Codes(grid), mesh);
     mesh.reserve(records.splits.size(), records.flips.size(), records.moves.size());
-    Status coded = Done{};
-    for_each_record(records, [&](auto record) {
-        if (coded) coded = coder.code(record);
-    });
+    coder.foresee(records.splits);
+    bool coded = true;
+    for_each_record(records, [&](auto record) { coded = coded && coder.code(record); });
+    if (!coded) return coder.error();
     for (const RecordKind kind : records.kinds) writer.byte(column::kKinds, static_cast<std::uint8_t>(kind));
-    return coded;
+    return Done{};
 }
 
 Expected<RecordBlock> RecordCodec::Impl::encode_compact(const RecordList& records, std::size_t first, std::size_t count,
@@ -79,30 +79,29 @@ Expected<RecordBlock> RecordCodec::Impl::encode_compact(const RecordList& record
 
 template <class Codes>
 Status RecordCodec::Impl::read(const RecordBlock& block, ProgressiveMesh& mesh, RecordList* records) {
-    const std::span<const std::uint8_t> kinds = reader.rest(column::kKinds);
+    const std::span<const std::uint8_t> kinds = reader.take(column::kKinds);
     if (kinds.size() != block.count) {
         return corrupt_block(
             block, "it has " + std::to_string(kinds.size()) + " kinds of records for a count of " + std::to_string(block.count));
     }
     BlockCoder<SymbolReader, Codes> coder(SymbolReader(reader), Codes(grid), mesh);
-    const auto take = [&](auto record) -> Status {
-        if (Status coded = coder.code(record); !coded) return coded;
+    const auto take = [&](auto record) {
+        if (!coder.code(record)) return false;
         if (records != nullptr) records->push_back(record);
-        return Done{};
+        return true;
     };
     mesh.reserve(static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), 0)),
                  static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), 1)),
                  static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), 2)));
     coder.read_places(static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), 0)));
     for (std::size_t n = 0; n < kinds.size(); ++n) {
-        static_cast<void>(reader.byte(column::kKinds));
-        const Status taken = kinds[n] == 0   ? take(VertexSplit())
-                             : kinds[n] == 1 ? take(EdgeFlip())
-                             : kinds[n] == 2 ? take(VertexMove())
-                                             : Status(Error{Cause::kCorrupt, "its kind is " + std::to_string(kinds[n]), ""});
-        if (!taken) return corrupt_block(block, "record " + std::to_string(block.first + n) + ": " + taken.error().message);
-        if (reader.ran_short())
-            return corrupt_block(block, "record " + std::to_string(block.first + n) + ": its columns are too short");
+        const auto bad = [&](const std::string& what) {
+            return corrupt_block(block, "record " + std::to_string(block.first + n) + ": " + what);
+        };
+        if (kinds[n] > 2) return bad("its kind is " + std::to_string(kinds[n]));
+        const bool taken = kinds[n] == 0 ? take(VertexSplit()) : kinds[n] == 1 ? take(EdgeFlip()) : take(VertexMove());
+        if (!taken) return bad(coder.error().message);
+        if (reader.ran_short()) return bad("its columns are too short");
     }
     if (reader.all_read()) return Done{};
     return corrupt_block(block, "something is left over behind the last record");

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "mesh/corners.h"
 #include "mesh/half_edges.h"
 #include "vsplit/mrr/progressive_mesh.h"
 
@@ -20,31 +22,40 @@ using Offset = std::array<double, 3>;
 class Star {
 public:
     void gather(const ProgressiveMesh& mesh, std::uint32_t vertex) {
-        const auto& positions = mesh.mesh().positions;
+        const Vec3* const positions = mesh.mesh().positions.data();
+        const std::uint32_t* const vertex_at = corners_of(mesh.mesh().faces);
+        const HalfEdge* const twins = mesh.twins().data();
         for (int axis = 0; axis < 3; ++axis) centre[axis] = positions[vertex][axis];
         const HalfEdge start = mesh.corner_of(vertex);
         HalfEdge corner = start;
-        double least = std::numeric_limits<double>::infinity();
+        std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
         std::uint32_t nearest = kNone;  // vertex
-        valence_ = 0;
+        std::uint32_t n = 0, first = 0;
         do {
-            if (2 * valence_ + 2 > spokes_.size()) spokes_.resize(2 * spokes_.size() + 32);
-            Spoke& spoke = spokes_[valence_];
-            spoke.corner = corner;
-            spoke.vertex = origin(mesh.mesh(), next(corner));
-            const Vec3& at = positions[spoke.vertex];
-            for (int axis = 0; axis < 3; ++axis) spoke.offset[axis] = at[axis] - centre[axis];
-            const Offset& d = spoke.offset;
-            const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-            // Nobody can foresee which is the nearest, so this is selected, not branched to.
-            const bool nearer = (square < least) | ((square == least) & (spoke.vertex < nearest));
-            first_ = nearer ? valence_ : first_;
-            nearest = nearer ? spoke.vertex : nearest;
+            if (2 * n + 2 + kCopied > corners_.size()) [[unlikely]]
+                grow();
+            const std::uint32_t neighbour = vertex_at[next(corner)];
+            corners_[n] = corner;
+            vertices_[n] = neighbour;
+            Offset& d = offsets_[n];
+            for (int axis = 0; axis < 3; ++axis) d[axis] = positions[neighbour][axis] - centre[axis];
+            // Doubles that are not negative are in the order of their bits. Nobody can foresee which is the nearest, so this is
+            // selected, not branched to.
+            const auto square = std::bit_cast<std::uint64_t>(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            const bool nearer = (square < least) | ((square == least) & (neighbour < nearest));
+            first = nearer ? n : first;
+            nearest = nearer ? neighbour : nearest;
             least = nearer ? square : least;
-            ++valence_;
-            corner = mesh.twins()[prev(corner)];
+            ++n;
+            corner = twins[prev(corner)];
         } while (corner != start);
-        std::copy_n(spokes_.begin(), valence_, spokes_.begin() + valence_);
+        valence_ = n;
+        first_ = first;
+        for (std::uint32_t from = 0; from < n; from += kCopied) {
+            copy(offsets_, from);
+            copy(corners_, from);
+            copy(vertices_, from);
+        }
     }
 
     /// Begins the ring `steps` later. \pre steps < valence().
@@ -53,25 +64,40 @@ public:
         if (first_ >= valence_) first_ -= valence_;
     }
 
-    struct Spoke {
-        HalfEdge corner = 0;       ///< of the centre, in the face after the neighbour
-        std::uint32_t vertex = 0;  ///< the neighbour
-        Offset offset{};           ///< of the neighbour from the centre
-    };
     [[nodiscard]] std::uint32_t valence() const { return valence_; }
-    /// \pre n <= valence().
-    [[nodiscard]] const Spoke& operator[](std::size_t n) const { return spokes_[first_ + n]; }
-    /// How many spokes after the first the one at this corner is. \pre it is one.
+    /// From the first neighbour on, once around and back to it: valence() + 1 of them can be read. Each neighbour's offset from
+    /// the centre, its number, and the corner of the centre in the face after it.
+    [[nodiscard]] const Offset* offsets() const { return offsets_.data() + first_; }
+    [[nodiscard]] const std::uint32_t* vertices() const { return vertices_.data() + first_; }
+    [[nodiscard]] const HalfEdge* corners() const { return corners_.data() + first_; }
+    /// How many neighbours after the first the one at this corner is. \pre it is one.
     [[nodiscard]] std::uint32_t index_of(HalfEdge corner) const {
-        std::uint32_t n = 0;
-        while ((*this)[n].corner != corner) ++n;
-        return n;
+        return static_cast<std::uint32_t>(std::find(corners(), corners() + valence_, corner) - corners());
     }
 
     Offset centre{};
 
 private:
-    std::vector<Spoke> spokes_;  // twice, one after the other, so that a ring can begin anywhere; then room
+    static constexpr std::uint32_t kCopied = 8;  // at once: as many as most rings have, so that no loop is needed for them
+
+    /// The second time around, as far as kCopied elements from `from` on go; beyond the ring there is room.
+    template <class Element>
+    void copy(std::vector<Element>& elements, std::uint32_t from) const {
+        std::array<Element, kCopied> some;
+        std::copy_n(elements.data() + from, kCopied, some.data());
+        std::copy_n(some.data(), kCopied, elements.data() + valence_ + from);
+    }
+    void grow() {
+        const std::size_t size = 2 * corners_.size() + 4 * kCopied;
+        offsets_.resize(size);
+        corners_.resize(size);
+        vertices_.resize(size);
+    }
+
+    // The ring twice, one after the other, so that it can begin anywhere; then room for kCopied.
+    std::vector<Offset> offsets_;
+    std::vector<HalfEdge> corners_;
+    std::vector<std::uint32_t> vertices_;
     std::uint32_t valence_ = 0;
     std::uint32_t first_ = 0;
 };
@@ -85,19 +111,25 @@ struct StarFrame {
 
     explicit StarFrame(const Star& star) {
         const std::uint32_t valence = star.valence();
-        const Star::Spoke* const spokes = &star[0];
-        for (std::uint32_t n = 0; n < valence; ++n) {
-            const Offset& a = spokes[n].offset;
-            const Offset& b = spokes[n + 1].offset;
-            normal[0] += a[1] * b[2] - a[2] * b[1];
-            normal[1] += a[2] * b[0] - a[0] * b[2];
-            normal[2] += a[0] * b[1] - a[1] * b[0];
-            for (int axis = 0; axis < 3; ++axis) reach[axis] = std::max(reach[axis], std::abs(a[axis]));
+        const Offset* const offsets = star.offsets();
+        double nx = 0, ny = 0, nz = 0, rx = 0, ry = 0, rz = 0;
+        double ax = offsets[0][0], ay = offsets[0][1], az = offsets[0][2];
+        for (std::uint32_t n = 1; n <= valence; ++n) {
+            const double bx = offsets[n][0], by = offsets[n][1], bz = offsets[n][2];
+            nx += ay * bz - az * by;
+            ny += az * bx - ax * bz;
+            nz += ax * by - ay * bx;
+            rx = std::max(rx, std::abs(ax));
+            ry = std::max(ry, std::abs(ay));
+            rz = std::max(rz, std::abs(az));
+            ax = bx, ay = by, az = bz;
         }
+        normal = {nx, ny, nz};
+        reach = {rx, ry, rz};
         if (std::abs(normal[1]) > std::abs(normal[across])) across = 1;
         if (std::abs(normal[2]) > std::abs(normal[across])) across = 2;
         if (!has_plane()) return;
-        for (std::uint32_t n = 0; n < valence; ++n) thickness = std::max(thickness, std::abs(dot(spokes[n].offset)));
+        for (std::uint32_t n = 0; n < valence; ++n) thickness = std::max(thickness, std::abs(dot(offsets[n])));
         thickness /= std::abs(normal[across]);
     }
     [[nodiscard]] bool has_plane() const { return normal[across] != 0; }

@@ -54,9 +54,9 @@ class BaseReader {
   }
 
   private coordinate(column: number, expected: number, axis: number): number {
-    const code = (this.codes.code(expected, axis) + fromZigzag(this.columns.number(column))) >>> 0;
-    this.require(this.codes.holds(code));
-    return this.codes.value(code, axis);
+    const value = this.codes.decode(expected, fromZigzag(this.columns.number(column)), axis);
+    this.require(value === value);
+    return value;
   }
 
   plain(): void {

@@ -1,4 +1,4 @@
-import { Column, ColumnReader, fromZigzag } from "./columns.js";
+import { Column, ColumnReader, fromZigzag, lowBits } from "./columns.js";
 import { crc32c } from "./crc32c.js";
 import { CorruptError } from "./errors.js";
 import { codesOf, Encoding, largestCoordinate, type Codes, type Grid } from "./grid.js";
@@ -65,9 +65,8 @@ export class RecordDecoder {
     if (block.count > mostBlockRecords) throw new CorruptError(`${block.count} records are more than ${mostBlockRecords}`);
     if (block.payload[0] !== this.grid.bits) throw new CorruptError(`it is not of ${this.grid.bits} bits a coordinate`);
     const columns = (this.columns = new ColumnReader(block.payload.subarray(1), block.count * mostUnpackedBytes));
-    const kinds = columns.whole(Column.Kinds);
+    const kinds = columns.take(Column.Kinds);
     if (kinds.length !== block.count) throw new CorruptError(`${kinds.length} kinds of records for a count of ${block.count}`);
-    columns.skip(Column.Kinds);
     let splits = 0;
     for (const kind of kinds) splits += kind === Kind.Split ? 1 : 0;
     mesh.reserve(splits, kinds.length - splits);
@@ -91,11 +90,9 @@ export class RecordDecoder {
       if (symbol - beside >= this.besideCount) throw new CorruptError("a vertex that is not there");
       return this.besideList[symbol - beside]!;
     }
-    const count = mesh.vertexCount;
-    const width = 32 - Math.clz32(count - 1);
-    const low = width > 7 ? width - 7 : 0;
-    const vertex = ((symbol << low) | this.columns.bits(low, Column.PlaceBits)) >>> 0;
-    if (vertex >= count) throw new CorruptError("a vertex that is not there");
+    const low = lowBits(mesh.vertexCount);
+    const vertex = ((symbol << low) | this.columns.placeBits(low)) >>> 0;
+    if (vertex >= mesh.vertexCount) throw new CorruptError("a vertex that is not there");
     return vertex;
   }
 
@@ -117,20 +114,18 @@ export class RecordDecoder {
     if (turn >= valence || more + 1 >= valence) throw new CorruptError("a fan that is none of the vertex");
     star.turn(turn);
     const steps = more + 1;
-    const begin = star.first;
-    const end = begin + steps;
-    const anchor = star.corner[begin]!;
+    const anchor = star.corner[star.first]!;
 
     star.lie();
     const { x, y, z, hasPlane } = star;
     let fx = 0, fy = 0, fz = 0, rx = 0, ry = 0, rz = 0;
-    for (let n = begin; n <= end; ++n) {
+    for (let n = 0; n <= steps; ++n) {
       fx += x[n]!;
       fy += y[n]!;
       fz += z[n]!;
     }
-    const ex = (x[begin]! + x[end]!) * 0.5, ey = (y[begin]! + y[end]!) * 0.5, ez = (z[begin]! + z[end]!) * 0.5;
-    for (let n = end; n <= begin + valence; ++n) {
+    const ex = (x[0]! + x[steps]!) * 0.5, ey = (y[0]! + y[steps]!) * 0.5, ez = (z[0]! + z[steps]!) * 0.5;
+    for (let n = steps; n <= valence; ++n) {
       rx += x[n]!;
       ry += y[n]!;
       rz += z[n]!;
@@ -169,7 +164,7 @@ export class RecordDecoder {
     besideList[0] = vertex;
     besideList[1] = added;
     const most = Math.min(star.valence, beside - 2);
-    for (let n = 0; n < most; ++n) besideList[n + 2] = star.vertex[star.first + n]!;
+    for (let n = 0, at = star.first; n < most; ++n, at = at + 1 === star.valence ? 0 : at + 1) besideList[n + 2] = star.vertex[at]!;
     this.besideCount = most + 2;
   }
 
@@ -219,10 +214,9 @@ export class RecordDecoder {
 
   private put(column: number, expected: number, axis: number): void {
     if (!this.inRange) return;
-    const codes = this.codes!;
-    const code = (codes.code(expected, axis) + fromZigzag(this.columns.number(column))) >>> 0;
-    if (codes.holds(code)) this.point[axis] = codes.value(code, axis);
-    else this.inRange = false;
+    const value = this.codes!.decode(expected, fromZigzag(this.columns.number(column)), axis);
+    this.point[axis] = value;
+    this.inRange = value === value;
   }
 }
 

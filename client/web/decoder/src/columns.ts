@@ -18,7 +18,6 @@ export const enum Column {
 }
 
 const largestToken = 16 + 27 * 8 + 7;
-const nothing = new Uint8Array(0);
 
 /** What a zstd frame says it unpacks to; 0 where it says nothing. */
 function frameContentSize(frame: Uint8Array): number {
@@ -34,17 +33,41 @@ function frameContentSize(frame: Uint8Array): number {
   return width === 2 ? size + 256 : size;
 }
 
+/** Bits in the order in which they were written, lowest first. */
+class BitColumn {
+  private at = 0;
+  constructor(private readonly bytes: Uint8Array, private readonly count: number) {}
+
+  get left(): number {
+    return this.count - this.at;
+  }
+
+  /** `width` is from 1 to 32, and no more than are left. */
+  read(width: number): number {
+    const { bytes, at } = this;
+    this.at = at + width;
+    const first = at >>> 3;
+    const shift = at & 7;
+    const four = bytes[first]! | (bytes[first + 1]! << 8) | (bytes[first + 2]! << 16) | (bytes[first + 3]! << 24);
+    if (width + shift <= 32) return (four >>> shift) & (-1 >>> (32 - width));
+    const all = (four >>> shift) | (bytes[first + 4]! << (32 - shift));
+    return width === 32 ? all >>> 0 : all & ((1 << width) - 1);
+  }
+}
+
 /** Gives the symbols of a payload back. Reading beyond the end of a column gives 0 and is remembered in `short`. */
 export class ColumnReader {
   short = false;
-  private readonly columns: Uint8Array[] = new Array<Uint8Array>(Column.PlaceBits + 1).fill(nothing);
+  /** All columns one after the other, and where what is left of each begins and ends. */
+  private readonly bytes: Uint8Array;
   private readonly at = new Int32Array(Column.Bits);
-  // Of Bits and PlaceBits.
-  private readonly bitAt = [0, 0];
-  private readonly bitCount = [0, 0];
+  private readonly end = new Int32Array(Column.Bits);
+  private readonly rest: BitColumn;
+  private readonly places: BitColumn;
 
   /** `most`: bytes that the columns may unpack to. */
   constructor(payload: Uint8Array, most: number) {
+    const stored = new Array<Stored | undefined>(Column.PlaceBits + 1).fill(undefined);
     let total = 0;
     let last = -1;
     let next = 0;
@@ -63,50 +86,41 @@ export class ColumnReader {
       const compressed = size % 2 === 1;
       size = Math.floor(size / 2);
       if (size > payload.length - next) throw new CorruptError("a column does not end where its block does");
-      const stored = payload.subarray(next, next + size);
+      const bytes = payload.subarray(next, next + size);
       next += size;
-      const content = compressed ? frameContentSize(stored) : size;
+      const content = compressed ? frameContentSize(bytes) : size;
       if (content === 0 || content > most - total) throw new CorruptError(`column ${column} would unpack to too much or nothing`);
+      stored[column] = { bytes, compressed, content };
       total += content;
-      this.columns[column] = compressed ? unpack(stored, content, column) : stored;
     }
-    for (const column of [Column.Bits, Column.PlaceBits]) {
-      const bits = this.columns[column]!;
-      const padded = new Uint8Array(bits.length + 8);
-      padded.set(bits);
-      this.columns[column] = padded;
-      this.bitCount[column - Column.Bits] = 8 * bits.length;
+    this.bytes = new Uint8Array(total);
+    let to = 0;
+    for (let column = 0; column < Column.Bits; ++column) {
+      const from = stored[column];
+      this.at[column] = to;
+      if (from) unpack(from, column, this.bytes.subarray(to, to + from.content));
+      to += from ? from.content : 0;
+      this.end[column] = to;
     }
+    this.rest = bitColumn(stored[Column.Bits], Column.Bits);
+    this.places = bitColumn(stored[Column.PlaceBits], Column.PlaceBits);
   }
 
   byte(column: number): number {
-    const bytes = this.columns[column]!;
     const at = this.at[column]!;
-    if (at >= bytes.length) {
+    if (at >= this.end[column]!) {
       this.short = true;
       return 0;
     }
     this.at[column] = at + 1;
-    return bytes[at]!;
+    return this.bytes[at]!;
   }
 
-  /** `width` is at most 32. */
-  bits(width: number, column: number = Column.Bits): number {
+  private bits(of: BitColumn, width: number): number {
     if (width === 0) return 0;
-    const stream = column - Column.Bits;
-    const begin = this.bitAt[stream]!;
-    this.bitAt[stream] = begin + width;
-    if (begin + width > this.bitCount[stream]!) {
-      this.short = true;
-      return 0;
-    }
-    const bytes = this.columns[column]!;
-    const at = begin >>> 3;
-    const shift = begin & 7;
-    const four = bytes[at]! | (bytes[at + 1]! << 8) | (bytes[at + 2]! << 16) | (bytes[at + 3]! << 24);
-    let value = four >>> shift;
-    if (shift > 0) value |= bytes[at + 4]! << (32 - shift);
-    return width === 32 ? value >>> 0 : (value & ((1 << width) - 1)) >>> 0;
+    if (width <= of.left) return of.read(width);
+    this.short = true;
+    return 0;
   }
 
   number(column: number): number {
@@ -114,47 +128,67 @@ export class ColumnReader {
     if (symbol < 16) return symbol;
     if (symbol > largestToken) this.short = true;
     const width = ((symbol - 16) >>> 3) + 1;
-    return (((8 | (symbol & 7)) << width) | this.bits(width)) >>> 0;
+    return (((8 | (symbol & 7)) << width) | this.bits(this.rest, width)) >>> 0;
   }
 
   /** A number below `count` of which any is as likely. */
   uniform(column: number, count: number): number {
     const low = lowBits(count);
     const high = this.byte(column);
-    return ((high << low) | this.bits(low)) >>> 0;
+    return ((high << low) | this.bits(this.rest, low)) >>> 0;
   }
 
-  /** All symbols of a column. */
-  whole(column: number): Uint8Array {
-    return this.columns[column]!;
+  /** The low bits of a place. */
+  placeBits(width: number): number {
+    return this.bits(this.places, width);
   }
 
-  skip(column: number): void {
-    this.at[column] = this.columns[column]!.length;
+  /** All symbols of a column, which then are read. */
+  take(column: number): Uint8Array {
+    const all = this.bytes.subarray(this.at[column], this.end[column]);
+    this.at[column] = this.end[column]!;
+    return all;
   }
 
   /** Whether all that was there was read; the bits that fill up the last byte are 0. */
   allRead(): boolean {
     for (let column = 0; column < Column.Bits; ++column) {
-      if (this.at[column] !== this.columns[column]!.length) return false;
+      if (this.at[column] !== this.end[column]) return false;
     }
-    for (const column of [Column.Bits, Column.PlaceBits]) {
-      const left = this.bitCount[column - Column.Bits]! - this.bitAt[column - Column.Bits]!;
-      if (left < 0 || left >= 8 || this.bits(left, column) !== 0) return false;
+    for (const of of [this.rest, this.places]) {
+      if (of.left >= 8 || this.bits(of, of.left) !== 0) return false;
     }
     return true;
   }
 }
 
-function unpack(frame: Uint8Array, size: number, column: number): Uint8Array {
-  let bytes: Uint8Array;
+interface Stored {
+  bytes: Uint8Array;
+  compressed: boolean;
+  /** Bytes that it unpacks to. */
+  content: number;
+}
+
+function unpack(from: Stored, column: number, to: Uint8Array): void {
+  if (!from.compressed) {
+    to.set(from.bytes);
+    return;
+  }
+  let unpacked: Uint8Array;
   try {
-    bytes = decompress(frame, new Uint8Array(size));
+    unpacked = decompress(from.bytes, to);
   } catch (error) {
     throw new CorruptError(`column ${column} is no whole zstd frame: ${String(error)}`);
   }
-  if (bytes.length !== size) throw new CorruptError(`column ${column} is no whole zstd frame`);
-  return bytes;
+  if (unpacked.length !== to.length) throw new CorruptError(`column ${column} is no whole zstd frame`);
+}
+
+/** Room for five bytes is behind the last. */
+function bitColumn(from: Stored | undefined, column: number): BitColumn {
+  const size = from ? from.content : 0;
+  const bytes = new Uint8Array(size + 5);
+  if (from) unpack(from, column, bytes.subarray(0, size));
+  return new BitColumn(bytes, 8 * size);
 }
 
 /** How many of the bits of a number below `count` are stored as they are. */

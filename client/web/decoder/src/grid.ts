@@ -41,24 +41,19 @@ function clampScale(scale: number): number {
 
 /** Coordinates as whole numbers in their order. */
 export interface Codes {
-  code(value: number, axis: number): number;
-  value(code: number, axis: number): number;
-  holds(code: number): boolean;
+  /** The coordinate whose code is `residual` beyond that of `expected`, modulo 2^32; NaN where there is none. */
+  decode(expected: number, residual: number, axis: number): number;
   scale(length: number, at: number): number;
 }
 
 class Float32Codes implements Codes {
-  code(value: number, _axis: number): number {
-    f32[0] = value;
-    const bits = f32Word[0]!;
-    return (bits ^ (-(bits >>> 31) | 0x80000000)) >>> 0;
-  }
-  value(code: number, _axis: number): number {
-    f32Word[0] = code ^ (((code >>> 31) - 1) | 0x80000000);
-    return f32[0]!;
-  }
-  holds(code: number): boolean {
-    return Math.abs(this.value(code, 0)) <= largestCoordinate;
+  decode(expected: number, residual: number, _axis: number): number {
+    f32[0] = expected;
+    const bits = f32Word[0]! | 0;
+    const code = ((bits ^ ((bits >> 31) | 0x80000000)) + residual) | 0;
+    f32Word[0] = code ^ (~(code >> 31) | 0x80000000);
+    const value = f32[0]!;
+    return Math.abs(value) <= largestCoordinate ? value : NaN;
   }
   scale(length: number, at: number): number {
     if (length === 0) return 0;
@@ -67,32 +62,27 @@ class Float32Codes implements Codes {
 }
 
 class QuantisedCodes implements Codes {
-  private readonly x: number;
-  private readonly y: number;
-  private readonly z: number;
+  private readonly origin: Float64Array;
   private readonly step: number;
   private readonly perUnit: number;
   private readonly most: number;
 
   constructor(grid: Grid) {
-    [this.x, this.y, this.z] = grid.origin;
+    this.origin = Float64Array.from(grid.origin);
     this.step = grid.step;
     this.perUnit = 1 / grid.step;
     this.most = 2 ** grid.bits - 1;
   }
-  code(value: number, axis: number): number {
-    const origin = axis === 0 ? this.x : axis === 1 ? this.y : this.z;
-    const nearest = Math.floor((value - origin) * this.perUnit + 0.5);
-    return nearest > 0 ? (nearest < this.most ? nearest : this.most) : 0;
-  }
-  value(code: number, axis: number): number {
-    return (axis === 0 ? this.x : axis === 1 ? this.y : this.z) + code * this.step;
-  }
-  holds(code: number): boolean {
-    return code <= this.most;
+  decode(expected: number, residual: number, axis: number): number {
+    const { most } = this;
+    const origin = this.origin[axis]!;
+    const upper = (expected - origin) * this.perUnit + 0.5; // what is whole of it, when not below 0, is the nearest
+    const code = ((upper > 0 ? (upper < most ? upper | 0 : most) : 0) + residual) | 0;
+    return code >= 0 && code <= most ? origin + code * this.step : NaN;
   }
   scale(length: number, _at: number): number {
-    return clampScale(exponentField(length * this.perUnit) - 1022);
+    const steps = length * this.perUnit;
+    return steps < 2147483648 ? 32 - Math.clz32(steps) : 31;
   }
 }
 

@@ -4,12 +4,13 @@ import { UndoneRecords } from "./undone.js";
 
 const none = 0xffffffff;
 
-export const next = (h: number): number => (h % 3 === 2 ? h - 2 : h + 1);
-export const prev = (h: number): number => (h % 3 === 0 ? h + 2 : h - 1);
+// `| 0` here and where corners are read keeps the numbers of a mesh whole numbers of 32 bits for the compiler; they stay below 2^31.
+export const next = (h: number): number => (h % 3 === 2 ? (h - 2) | 0 : (h + 1) | 0);
+export const prev = (h: number): number => (h % 3 === 0 ? (h + 2) | 0 : (h - 1) | 0);
 
 function grown<T extends Uint32Array | Float64Array | Uint8Array>(array: T, needed: number): T {
   if (needed <= array.length) return array;
-  const larger = new (array.constructor as new (size: number) => T)(Math.max(needed, Math.ceil(array.length * 1.5)));
+  const larger = new (array.constructor as new (size: number) => T)(Math.max(needed, 2 * array.length));
   larger.set(array as never);
   return larger;
 }
@@ -132,24 +133,23 @@ export class ProgressiveMesh {
   /** `steps` must be from 1 to the valence less 1. Room must have been made. */
   split(anchor: number, steps: number, kx: number, ky: number, kz: number, ax: number, ay: number, az: number): void {
     const { corners, twins, positions, ghosts } = this;
-    const v = corners[anchor]!;
-    const b = corners[next(anchor)]!;
+    const v = corners[anchor]! | 0;
+    const b = corners[next(anchor)]! | 0;
+    const w = this.vertexCount | 0;
     let fanEnd = anchor;
-    let corner = anchor;
+    let after = anchor | 0;
     for (let n = 0; n < steps; ++n) {
-      fanEnd = prev(corner);
-      corner = twins[fanEnd]!;
+      corners[after] = w;
+      fanEnd = prev(after);
+      after = twins[fanEnd]! | 0;
     }
-    const e = corners[fanEnd]!;
-    if (ghosts > 0 && (v < ghosts || (b < ghosts && e < ghosts))) throw new CorruptError("a split at or between ghosts");
-    const w = this.vertexCount++;
-    corner = anchor;
-    for (let n = 0; n < steps; ++n) {
-      corners[corner] = w;
-      corner = twins[prev(corner)]!;
+    const e = corners[fanEnd]! | 0;
+    if (ghosts > 0 && (v < ghosts || (b < ghosts && e < ghosts))) {
+      for (let n = 0, corner = anchor; n < steps; ++n, corner = twins[prev(corner)]!) corners[corner] = v;
+      throw new CorruptError("a split at or between ghosts");
     }
-    const after = twins[fanEnd]!;
-    const before = twins[anchor]!;
+    this.vertexCount = w + 1;
+    const before = twins[anchor]! | 0;
     const first = 3 * this.faceCount;
     this.faceCount += 2;
     corners[first] = v;

@@ -47,6 +47,9 @@ public:
     /// bounding box divided by 2^bits - 1, the same on all axes. O(records). \return as check_encoding.
     [[nodiscard]] static Expected<PositionGrid> over(const MultiresMesh& mrr, const EncodingChoice& choice);
 
+    /// The same for who knows box_of_all(mrr). O(1).
+    [[nodiscard]] static Expected<PositionGrid> over(const BoundingBox& box, const EncodingChoice& choice);
+
     [[nodiscard]] RecordEncoding encoding() const { return encoding_; }
     [[nodiscard]] std::uint32_t bits() const { return bits_; }    ///< 0 unless quantised
     [[nodiscard]] const Vec3& origin() const { return origin_; }  ///< 0 unless quantised

@@ -41,6 +41,15 @@ public:
     [[nodiscard]] Status refine(EdgeFlip flip) { return take(flip); }
     [[nodiscard]] Status refine(const VertexMove& move) { return take(move); }
 
+    /// The same for who has walked around the vertex: corners[n] is its corner in the face that comes n after that of the anchor,
+    /// corners[steps] the one in the first face that stays. \pre so it is; 0 < steps < valence; the positions are valid.
+    /// \return CORRUPT for a split at a ghost or between two. O(steps).
+    [[nodiscard]] Status refine(const VertexSplit& split, const std::uint32_t* corners) {
+        if (ghosts_ > 0 && is_beside_ghosts(split, corners)) return refuse(split);
+        apply(split, corners);
+        return Done{};
+    }
+
     /// Makes room for so many records more at once.
     void reserve(std::size_t splits, std::size_t flips, std::size_t moves);
 
@@ -77,27 +86,38 @@ public:
     /// Ask for the memory that corner_of, a position, or the face of a corner lies in; harmless where that is not needed after
     /// all.
     void prefetch_corner_of(std::uint32_t vertex) const { __builtin_prefetch(corner_of_.data() + vertex); }
-    void prefetch_position(std::uint32_t vertex) const { __builtin_prefetch(mesh_.positions.data() + vertex); }
+    void prefetch_position(std::uint32_t vertex) const {
+        const double* const position = mesh_.positions.data()[vertex].data();
+        __builtin_prefetch(position);
+        __builtin_prefetch(position + 2);  // a quarter of them lie in two cache lines
+    }
     void prefetch_corner(std::uint32_t corner) const {
-        __builtin_prefetch(mesh_.faces.data() + corner / 3);
+        __builtin_prefetch(mesh_.faces.data()->data() + corner);
         __builtin_prefetch(twin_.data() + corner);
     }
 
 private:
     ProgressiveMesh() = default;
 
-    [[nodiscard]] Status check(const VertexSplit& split) const;
+    /// The corners of the fan that moves and one more, as refine(split, corners) has them, in fan_.
+    [[nodiscard]] Status find_fan(const VertexSplit& split);
+    [[nodiscard]] bool is_beside_ghosts(const VertexSplit& split, const std::uint32_t* corners) const;
+    [[nodiscard]] Status check(const VertexSplit& split);
     [[nodiscard]] Status check(EdgeFlip flip) const;
     [[nodiscard]] Status check(const VertexMove& move) const;
     [[nodiscard]] bool is_ghost(std::uint32_t vertex) const { return vertex < ghosts_; }
     [[nodiscard]] bool has_valence_of(std::uint32_t least, std::uint32_t corner) const;
     [[nodiscard]] bool are_joined(std::uint32_t corner, std::uint32_t other) const;
 
-    void apply(const VertexSplit& split);
+    void apply(const VertexSplit& split) { apply(split, fan_.data()); }
+    void apply(const VertexSplit& split, const std::uint32_t* corners);
     void apply(EdgeFlip flip);
     void apply(const VertexMove& move);
     template <class AnyRecord>
     [[nodiscard]] Status take(const AnyRecord& record);
+    /// What is wrong with a record that check found wrong.
+    template <class AnyRecord>
+    [[nodiscard]] Status refuse(const AnyRecord& record);
 
     void note_corners_beside(std::uint32_t half_edge);
 
@@ -110,6 +130,7 @@ private:
     std::uint32_t ghosts_ = 0;
     std::size_t level_ = 0;
     std::vector<std::uint32_t> border_splits_;
+    std::vector<std::uint32_t> fan_;  // of the split that was checked last
     // What undoing takes; the records themselves are not kept.
     std::vector<RecordKind> applied_;
     std::vector<std::uint32_t> edited_;  // half-edge of each flip, vertex of each move
