@@ -1,5 +1,6 @@
 #include "grpc/live_calls.h"
 
+#include <grpc/grpc.h>
 #include <grpcpp/grpcpp.h>
 
 #include <algorithm>
@@ -24,8 +25,8 @@ Error too_many(std::size_t limit, const char* what, const char* name) {
 }
 
 // Null for a call within the process.
-const grpc_auth_context* connection_of(grpc::ServerContextBase& context) {
-    grpc_auth_context* const connection = grpc_call_auth_context(context.c_call());
+const grpc_auth_context* connection_of(grpc_call* call) {
+    grpc_auth_context* const connection = grpc_call_auth_context(call);
     grpc_auth_context_release(connection);  // the call holds it
     return connection;
 }
@@ -46,8 +47,12 @@ public:
     // The first time before the handler has the call; earlier its context may not have it.
     void Intercept(grpc::experimental::InterceptorBatchMethods* methods) override {
         if (!std::exchange(counted_, true)) {
-            connection_ = connection_of(*info_.server_context());
-            if (connection_ != nullptr) calls_.begin(connection_, kind_);
+            grpc_call* const call = info_.server_context()->c_call();
+            connection_ = connection_of(call);
+            const Status within = connection_ == nullptr ? Status(Done{}) : calls_.begin(connection_, kind_);
+            if (!within) {
+                grpc_call_cancel_with_status(call, GRPC_STATUS_RESOURCE_EXHAUSTED, within.error().message.c_str(), nullptr);
+            }
         }
         methods->Proceed();
     }
@@ -82,11 +87,14 @@ Status LiveCalls::admit(const grpc_auth_context* connection, MethodName::Kind ki
     }
     if (most_ == 0) return Done{};
     if (all_ >= with_leaving(most_)) return too_many(most_, "rpcs run in this server", "max_rpcs");
-    const std::size_t most_open = std::max(kFew, most_ / kOpenShare);
-    if (kind != MethodName::Kind::kContract && open_ >= most_open) {
-        return too_many(most_open, "calls of health and reflection run in this server, their part of", "max_rpcs");
-    }
-    return Done{};
+    return kind == MethodName::Kind::kContract ? Status(Done{}) : admit_open(open_ + 1);
+}
+
+// Lock held, or no need of one.
+Status LiveCalls::admit_open(std::size_t calls) const {
+    const std::size_t most = std::max(kFew, most_ / kOpenShare);
+    if (most_ == 0 || calls <= most) return Done{};
+    return too_many(most, "calls of health and reflection run in this server", "of them by max_rpcs");
 }
 
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> LiveCalls::counter() {
@@ -98,11 +106,11 @@ std::size_t LiveCalls::count() const {
     return all_;
 }
 
-void LiveCalls::begin(const grpc_auth_context* connection, MethodName::Kind kind) {
+Status LiveCalls::begin(const grpc_auth_context* connection, MethodName::Kind kind) {
     const std::lock_guard lock(mutex_);
     ++by_connection_[connection];
     ++all_;
-    if (kind != MethodName::Kind::kContract) ++open_;
+    return kind == MethodName::Kind::kContract ? Status(Done{}) : admit_open(++open_);
 }
 
 void LiveCalls::end(const grpc_auth_context* connection, MethodName::Kind kind) {

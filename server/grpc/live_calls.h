@@ -36,7 +36,9 @@ private:
     class Call;
     class Factory;
 
-    void begin(const grpc_auth_context* connection, MethodName::Kind kind);
+    /// \return LIMIT_EXCEEDED for an open one that came while another one of the last places was taken.
+    [[nodiscard]] Status begin(const grpc_auth_context* connection, MethodName::Kind kind);
+    [[nodiscard]] Status admit_open(std::size_t calls) const;
     void end(const grpc_auth_context* connection, MethodName::Kind kind);
 
     const std::size_t most_;
