@@ -13,9 +13,9 @@
 
 namespace vsplit::rpc {
 
-/// Counts the calls that came by a socket and take memory. HTTP/2's own limit forgets a stream that its client resets at once, and
-/// gRPC reads on faster than it clears such calls away, at some 20 KB each: a client that opens and resets would take all memory.
-/// So whoever has too many is refused at the header, which costs next to nothing. Thread-safe; must outlive the server.
+/// Counts the calls that came by a socket and take memory. HTTP/2's own limit forgets a stream that its client resets at once,
+/// and gRPC reads on faster than it clears such calls away, at some 20 KB each: a client that opens and resets would take all
+/// memory. So whoever has too many is refused at the header, which costs next to nothing. Thread-safe; must outlive the server.
 class LiveCalls {
 public:
     /// \param most rpcs at a time, of which those that are none of the contract have a tenth, but 100 at least; 0: no limit

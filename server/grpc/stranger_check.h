@@ -11,8 +11,8 @@
 namespace vsplit::rpc {
 
 /// Refuses at their header rpcs of the contract that carry no token which the server knows, and any over the limit of LiveCalls:
-/// gRPC gives an rpc to its handler with its whole message only, and a stranger's are to take no memory. Everything else is decided when the handler has
-/// the rpc. Thread-safe.
+/// gRPC gives an rpc to its handler with its whole message only, and a stranger's are to take no memory. Everything else is
+/// decided when the handler has the rpc. Thread-safe.
 class StrangerCheck {
 public:
     /// \param gate, meter may be null; what is not must outlive the check. Observer and meter hear of rpcs of the contract that

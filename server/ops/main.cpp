@@ -162,8 +162,8 @@ rest::Backend backend_of(rpc::GrpcServer& server, service::MeshingService& servi
 
 // Null where --http is off.
 Expected<std::unique_ptr<rest::RestServer>> start_rest(const ServerOptions& options, const std::optional<ListenAddress>& address,
-                                                       rest::Backend backend, Metrics& metrics,
-                                                       TlsRefusals& refusals, std::shared_ptr<guard::TlsBook> tls) {
+                                                       rest::Backend backend, Metrics& metrics, TlsRefusals& refusals,
+                                                       std::shared_ptr<guard::TlsBook> tls) {
     if (!address) return std::unique_ptr<rest::RestServer>();
     const auto observe = [&metrics](const rest::HttpRecord& record) {
         metrics.http_ended(record);

@@ -9,9 +9,9 @@
 
 namespace vsplit::ops {
 
-/// Clients with which no TLS came about: without the certificate that is asked for, of a strange authority, in plain text. Each is
-/// counted, and one a second logged: whoever reaches the port can make any number. gRPC's are taken from its log while this lives,
-/// of which there is to be one. Thread-safe.
+/// Clients with which no TLS came about: without the certificate that is asked for, of a strange authority, in plain text. Each
+/// is counted, and one a second logged: whoever reaches the port can make any number. gRPC's are taken from its log while this
+/// lives, of which there is to be one. Thread-safe.
 class TlsRefusals {
 public:
     /// `metrics` must outlive it.

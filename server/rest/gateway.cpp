@@ -125,23 +125,24 @@ Awaitable<void> Gateway::refuse(Exchange& exchange, const Problem& problem) {
 
 Awaitable<void> Gateway::serve(Exchange& exchange) {
     if (!is_metadata(exchange.header(http::field::authorization))) {
-        co_return co_await refuse(exchange, http_problem(
-            400, Cause::kMalformedInput, "the header holds more than visible ASCII; accepted is Bearer TOKEN", "Authorization"));
+        co_return co_await refuse(
+            exchange, http_problem(400, Cause::kMalformedInput,
+                                   "the header holds more than visible ASCII; accepted is Bearer TOKEN", "Authorization"));
     }
     const std::string_view host = exchange.header(http::field::host);
     if (options_.own_hosts_only && !is_own_host(host, options_.cors_origins)) {
-        co_return co_await refuse(exchange, 
-            http_problem(421, Cause::kInvalidOption,
-                         "this server is not known as " + wire::valid_utf8(host, kQuotedBytes) +
-                             "; accepted are addresses, localhost, and the hosts of vsplitd --cors-origin",
-                         "Host"));
+        co_return co_await refuse(exchange,
+                                  http_problem(421, Cause::kInvalidOption,
+                                               "this server is not known as " + wire::valid_utf8(host, kQuotedBytes) +
+                                                   "; accepted are addresses, localhost, and the hosts of vsplitd --cors-origin",
+                                               "Host"));
     }
     const std::string_view origin = exchange.header(http::field::origin);
     if (check_origin(origin, host, options_.cors_origins).refused) {
         co_return co_await refuse(exchange, http_problem(403, Cause::kInvalidOption,
-                                                      "pages of " + wire::valid_utf8(origin, kQuotedBytes) +
-                                                          " may not use this server; vsplitd --cors-origin allows an origin",
-                                                      "Origin"));
+                                                         "pages of " + wire::valid_utf8(origin, kQuotedBytes) +
+                                                             " may not use this server; vsplitd --cors-origin allows an origin",
+                                                         "Origin"));
     }
     if (exchange.target() == "*" && exchange.method() == "OPTIONS") {
         co_return co_await serve_options(exchange, "DELETE, GET, HEAD, OPTIONS, POST, PUT");
@@ -156,7 +157,8 @@ Awaitable<void> Gateway::serve_target(Exchange& exchange, const Target& target) 
     const bool ready_page = target.path == kReadyPath;
     if (page != pages_.end() || ready_page) {
         if (exchange.method() == "OPTIONS") co_return co_await serve_options(exchange, std::string(kPageMethods));
-        if (!is_get(exchange)) co_return co_await refuse(exchange, wrong_method(exchange, target.path, std::string(kPageMethods)));
+        if (!is_get(exchange))
+            co_return co_await refuse(exchange, wrong_method(exchange, target.path, std::string(kPageMethods)));
         if (ready_page) co_return co_await serve_ready(exchange);
         const bool guarded = page->second.guarded && backend_.admit != nullptr;
         const Status admitted = guarded ? backend_.admit(exchange) : Status(Done{});

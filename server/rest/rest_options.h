@@ -33,7 +33,7 @@ struct RestOptions {
     std::function<void()> on_connection_refused{};  ///< of a connection over the limit
     /// Of a client with which no TLS came about, but those that only looked whether somebody listens.
     std::function<void(const std::string& peer, const std::string& reason)> on_tls_failed{};
-    unsigned threads = 2;                           ///< that speak to clients; none of them computes
+    unsigned threads = 2;  ///< that speak to clients; none of them computes
 };
 
 }  // namespace vsplit::rest

@@ -28,7 +28,8 @@ TEST(TraceContextTest, ReadsALaterVersionThatHasMore) {
 
 TEST(TraceContextTest, PassesOnTheBitThatIsDefinedAlone) {
     const std::string whose = kExample.substr(2, 51);
-    for (const auto& [version, flags, passed] : {std::tuple("00", "ff", "01"), {"00", "fe", "00"}, {"01", "0b", "01"}, {"00", "02", "00"}}) {
+    for (const auto& [version, flags, passed] :
+         {std::tuple("00", "ff", "01"), {"00", "fe", "00"}, {"01", "0b", "01"}, {"00", "02", "00"}}) {
         const auto trace = parse_traceparent(version + whose + flags);
         ASSERT_TRUE(trace) << version << whose << flags;
         EXPECT_EQ(trace->flags, passed) << version << ' ' << flags;
