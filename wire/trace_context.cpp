@@ -25,7 +25,9 @@ std::optional<TraceContext> parse_traceparent(std::string_view text) {
     const std::string_view span = text.substr(kTraceEnd + 1, kSpanEnd - kTraceEnd - 1);
     const std::string_view flags = text.substr(kSpanEnd + 1, kWhole - kSpanEnd - 1);
     if (!is_hex(trace) || !is_hex(span) || !is_hex(flags) || is_zero(trace) || is_zero(span)) return std::nullopt;
-    return TraceContext{std::string(trace), std::string(span), std::string(flags)};
+    // Bits that are not defined are not passed on: of those there are one says that the caller records the trace.
+    const int last = flags.back() <= '9' ? flags.back() - '0' : flags.back() - 'a' + 10;
+    return TraceContext{std::string(trace), std::string(span), last % 2 == 1 ? "01" : "00"};
 }
 
 std::string to_traceparent(const TraceContext& trace) { return "00-" + trace.trace_id + '-' + trace.span_id + '-' + trace.flags; }

@@ -16,7 +16,7 @@ inline constexpr const char* kForwardedPeerKey = "vsplit-forwarded-peer";
 struct TraceContext {
     std::string trace_id;  ///< 32 lower-case hexadecimal digits, not all 0
     std::string span_id;   ///< 16 of them, not all 0
-    std::string flags;     ///< 2 of them
+    std::string flags;     ///< "01" when the caller records the trace, otherwise "00"
 };
 
 /// Empty for anything that is no traceparent, which is then as if it were not there. A version above 00 is read as 00.

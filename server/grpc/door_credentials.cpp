@@ -46,7 +46,7 @@ std::string_view text_of(const grpc_slice& slice) {
     return {reinterpret_cast<const char*>(GRPC_SLICE_START_PTR(slice)), GRPC_SLICE_LENGTH(slice)};
 }
 
-void look_at_header(void* check, grpc_auth_context* /*connection*/, const grpc_metadata* header, std::size_t size,
+void look_at_header(void* check, grpc_auth_context* connection, const grpc_metadata* header, std::size_t size,
                     grpc_process_auth_metadata_done_cb done, void* call) {
     const auto find = [header, size](std::string_view name) -> std::string_view {
         for (std::size_t i = 0; i < size; ++i) {
@@ -54,7 +54,7 @@ void look_at_header(void* check, grpc_auth_context* /*connection*/, const grpc_m
         }
         return {};
     };
-    const grpc::Status known = static_cast<StrangerCheck*>(check)->look(find);
+    const grpc::Status known = static_cast<StrangerCheck*>(check)->look(connection, find);
     done(call, nullptr, 0, nullptr, 0, static_cast<grpc_status_code>(known.error_code()),
          known.ok() ? nullptr : known.error_message().c_str());
 }

@@ -4,7 +4,9 @@
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/resource_quota.h>
 
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "grpc/door_credentials.h"
 
@@ -35,8 +37,9 @@ void set_life(grpc::ServerBuilder& builder, const ConnectionLife& life) {
 
 GrpcServer::GrpcServer(service::MeshingService& service, const GrpcExtras& extras)
     : ledger_(extras.observer, extras.gate, extras.limits.rpcs),
+      live_(extras.limits.rpcs, static_cast<std::size_t>(extras.limits.streams)),
       rpcs_(service, ledger_, extras.shelf, extras.patience),
-      strangers_(extras.observer, extras.gate, extras.meter),
+      strangers_(live_, extras.observer, extras.gate, extras.meter),
       credentials_(door_credentials(extras.tls, &strangers_)),
       door_(extras.limits.connections, extras.on_connection_refused) {}
 
@@ -62,7 +65,10 @@ Status GrpcServer::serve(const GrpcExtras& extras) {
     acceptor_ = builder.experimental().AddExternalConnectionAcceptor(Connections::FROM_FD, credentials_);
     builder.RegisterService(&rpcs_);
     for (grpc::Service* service : extras.services) builder.RegisterService(service);
-    if (extras.meter != nullptr) builder.experimental().SetInterceptorCreators(interceptors_of(*extras.meter));
+    std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+    interceptors.push_back(live_.counter());
+    if (extras.meter != nullptr) interceptors.push_back(interceptor_of(*extras.meter));
+    builder.experimental().SetInterceptorCreators(std::move(interceptors));
     server_ = builder.BuildAndStart();
     if (server_ == nullptr) return Error{Cause::kUnavailable, "gRPC could not start", "listen"};
     server_->GetHealthCheckService()->SetServingStatus(v1::Meshing::service_full_name(), true);

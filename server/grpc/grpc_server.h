@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grpc/connection_door.h"
+#include "grpc/live_calls.h"
 #include "grpc/meshing_rpcs.h"
 #include "grpc/rpc_ledger.h"
 #include "grpc/rpc_meter.h"
@@ -82,6 +83,7 @@ private:
     [[nodiscard]] Status serve(const GrpcExtras& extras);
 
     RpcLedger ledger_;
+    LiveCalls live_;
     MeshingRpcs rpcs_;
     StrangerCheck strangers_;
     const std::shared_ptr<grpc::ServerCredentials> credentials_;  // outlive the server

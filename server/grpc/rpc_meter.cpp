@@ -1,11 +1,10 @@
 #include "grpc/rpc_meter.h"
 
 #include <google/protobuf/message.h>
+#include <grpcpp/server_context.h>
 #include <grpcpp/support/byte_buffer.h>
 
-#include <string>
-
-#include "vsplit/v1/meshing.grpc.pb.h"
+#include "grpc/method_name.h"
 
 namespace vsplit::rpc {
 namespace {
@@ -17,12 +16,8 @@ using grpc::experimental::ServerRpcInfo;
 // One an rpc.
 class Interceptor final : public grpc::experimental::Interceptor {
 public:
-    Interceptor(RpcMeter& meter, std::string_view name) : meter_(meter), name_(name) {
-        const std::string ours = std::string("/") + v1::Meshing::service_full_name() + '/';
-        name_.remove_prefix(1);
-        is_ours_ = name.substr(0, ours.size()) == ours;
-        if (is_ours_) name_ = name.substr(ours.size());
-        meter_.rpc_began(name_);
+    Interceptor(RpcMeter& meter, ServerRpcInfo& rpc) : meter_(meter), rpc_(rpc), name_(method_name(rpc.method())) {
+        meter_.rpc_began(name_.text);
     }
 
     void Intercept(InterceptorBatchMethods* methods) override {
@@ -30,15 +25,23 @@ public:
         if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_MESSAGE))
             count_out(methods->GetSerializedSendMessage());
         if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_STATUS)) {
-            meter_.rpc_ended(name_, methods->GetSendStatus().error_code(), std::chrono::steady_clock::now() - start_);
+            meter_.rpc_ended(name_.text, code_of(methods->GetSendStatus()), std::chrono::steady_clock::now() - start_);
         }
         methods->Proceed();
     }
 
 private:
+    // gRPC's own health service says UNKNOWN where a client leaves, and that would be taken for a fault of the server.
+    grpc::StatusCode code_of(const grpc::Status& status) {
+        const bool left = status.error_code() == grpc::StatusCode::UNKNOWN && !is_ours() && rpc_.server_context()->IsCancelled();
+        return left ? grpc::StatusCode::CANCELLED : status.error_code();
+    }
+
+    [[nodiscard]] bool is_ours() const { return name_.kind == MethodName::Kind::kContract; }
+
     // Null when the client has no more to send. Only of our own rpcs is it known what the pointer is.
     void count_in(const void* message) {
-        if (message == nullptr || !is_ours_) return;
+        if (message == nullptr || !is_ours()) return;
         meter_.message_in(static_cast<const google::protobuf::Message*>(message)->ByteSizeLong());
     }
 
@@ -47,8 +50,8 @@ private:
     }
 
     RpcMeter& meter_;
-    std::string_view name_;  // of the server's own list of methods
-    bool is_ours_ = false;
+    ServerRpcInfo& rpc_;
+    const MethodName name_;
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -57,7 +60,7 @@ public:
     explicit Factory(RpcMeter& meter) : meter_(meter) {}
 
     grpc::experimental::Interceptor* CreateServerInterceptor(ServerRpcInfo* info) override {
-        return new Interceptor(meter_, info->method());
+        return new Interceptor(meter_, *info);
     }
 
 private:
@@ -66,10 +69,8 @@ private:
 
 }  // namespace
 
-InterceptorFactories interceptors_of(RpcMeter& meter) {
-    InterceptorFactories factories;
-    factories.push_back(std::make_unique<Factory>(meter));
-    return factories;
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> interceptor_of(RpcMeter& meter) {
+    return std::make_unique<Factory>(meter);
 }
 
 }  // namespace vsplit::rpc

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <memory>
 #include <string_view>
-#include <vector>
 
 namespace vsplit::rpc {
 
@@ -19,7 +18,7 @@ public:
     RpcMeter(const RpcMeter&) = delete;
     RpcMeter& operator=(const RpcMeter&) = delete;
 
-    /// `method` is "Improve" for an rpc of vsplit.v1.Meshing, and "package.Service/Method" for another.
+    /// `method` is the text of a MethodName.
     virtual void rpc_began(std::string_view method) = 0;
     virtual void rpc_ended(std::string_view method, grpc::StatusCode code, std::chrono::steady_clock::duration elapsed) = 0;
 
@@ -28,9 +27,7 @@ public:
     virtual void message_out(std::size_t bytes) = 0;
 };
 
-using InterceptorFactories = std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>>;
-
 /// What tells `meter` of every rpc of a server. `meter` must outlive the server.
-[[nodiscard]] InterceptorFactories interceptors_of(RpcMeter& meter);
+[[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> interceptor_of(RpcMeter& meter);
 
 }  // namespace vsplit::rpc

@@ -1,48 +1,43 @@
 #include "grpc/stranger_check.h"
 
-#include <google/protobuf/descriptor.h>
-
-#include <string>
 #include <utility>
 
-#include "vsplit/v1/meshing.grpc.pb.h"
+#include "grpc/method_name.h"
 #include "wire/error_table.h"
 
 namespace vsplit::rpc {
-namespace {
 
-/// Null for a path that is no rpc of the contract.
-const google::protobuf::MethodDescriptor* rpc_at(std::string_view path) {
-    static const google::protobuf::ServiceDescriptor* const contract =
-        google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(v1::Meshing::service_full_name());
-    static const std::string ours = '/' + contract->full_name() + '/';
-    if (!path.starts_with(ours)) return nullptr;
-    return contract->FindMethodByName(std::string(path.substr(ours.size())));
+StrangerCheck::StrangerCheck(const LiveCalls& live, RpcObserver observer, guard::Gatekeeper* gate, RpcMeter* meter)
+    : live_(live), observer_(std::move(observer)), gate_(gate), meter_(meter) {}
+
+grpc::Status StrangerCheck::look(const grpc_auth_context* connection, const HeaderLookup& header) const {
+    const Status decided = decide(connection, header);
+    if (decided) return {};
+    grpc::Status refused = wire::to_status(decided.error());
+    tell(header, refused);
+    return refused;
 }
 
-}  // namespace
-
-StrangerCheck::StrangerCheck(RpcObserver observer, guard::Gatekeeper* gate, RpcMeter* meter)
-    : observer_(std::move(observer)), gate_(gate), meter_(meter) {}
-
-grpc::Status StrangerCheck::look(const HeaderLookup& header) const {
-    if (gate_ == nullptr) return {};
-    const google::protobuf::MethodDescriptor* const rpc = rpc_at(header(":path"));
-    if (rpc == nullptr) return {};
-    const Status known = gate_->recognise(header("authorization"));
-    if (known) return {};
-    grpc::Status refused = wire::to_status(known.error());
-    if (meter_ != nullptr) {
-        meter_->rpc_began(rpc->name());
-        meter_->rpc_ended(rpc->name(), refused.error_code(), {});
+Status StrangerCheck::decide(const grpc_auth_context* connection, const HeaderLookup& header) const {
+    const MethodName::Kind kind = method_name(header(":path")).kind;
+    if (gate_ != nullptr && kind == MethodName::Kind::kContract) {
+        if (Status known = gate_->recognise(header("authorization")); !known) return known;
     }
-    if (observer_) {
-        RpcRecord record{rpc->name(), "", refused};
+    return live_.admit(connection, kind);
+}
+
+void StrangerCheck::tell(const HeaderLookup& header, const grpc::Status& refused) const {
+    const MethodName method = method_name(header(":path"));
+    if (meter_ != nullptr) {
+        meter_->rpc_began(method.text);
+        meter_->rpc_ended(method.text, refused.error_code(), {});
+    }
+    if (method.kind == MethodName::Kind::kContract && observer_) {
+        RpcRecord record{method.text, "", refused};
         record.origin = origin_of(header, "");
         record.origin.authorization.clear();
         observer_(record);
     }
-    return refused;
 }
 
 }  // namespace vsplit::rpc

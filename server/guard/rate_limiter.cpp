@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace vsplit::guard {
+namespace {
+
+constexpr double kLongestWait = 1e9;  // seconds; of the smallest rates a number that an unsigned holds
+
+}  // namespace
 
 double RateLimiter::filled(const Bucket& bucket, Clock::time_point now) const {
     const double passed = std::max(0.0, std::chrono::duration<double>(now - bucket.at).count());
@@ -20,7 +25,7 @@ unsigned RateLimiter::take(std::string_view client, Clock::time_point now) {
         bucket.left -= 1;
         return 0;
     }
-    return static_cast<unsigned>(std::ceil((1 - bucket.left) / per_second_));
+    return static_cast<unsigned>(std::ceil(std::min((1 - bucket.left) / per_second_, kLongestWait)));
 }
 
 std::size_t RateLimiter::clients() const {

@@ -8,9 +8,12 @@
 
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
+#include "grpc/tls_failures.h"
 #include "ops/line_writer.h"
 #include "ops/log_line.h"
 #include "service/quoted.h"
@@ -28,9 +31,25 @@ LogOptions& options() {
     return held;
 }
 
+struct TlsListener {
+    std::mutex mutex;
+    std::function<void(std::string_view)> hear;
+};
+
+// gRPC's log knows a function only.
+TlsListener& tls_listener() {
+    static TlsListener held;
+    return held;
+}
+
 // For who looks for a fault in gRPC: what it calls an error is often a client that went away, and what matters to people is said
 // by the program in words of its own.
 void log_grpc(gpr_log_func_args* args) {
+    if (const std::optional<std::string_view> reason = rpc::tls_failure_in(*args)) {
+        TlsListener& listener = tls_listener();
+        const std::lock_guard lock(listener.mutex);
+        if (listener.hear) listener.hear(*reason);
+    }
     if (spdlog::should_log(spdlog::level::debug)) spdlog::debug("grpc: {}", args->message);
 }
 
@@ -113,6 +132,11 @@ void start_logging(const LogOptions& wanted) {
     spdlog::set_default_logger(std::move(logger));
     gpr_set_log_function(log_grpc);
     google::protobuf::SetLogHandler(log_protobuf);
+}
+
+void on_grpc_tls_failure(std::function<void(std::string_view reason)> hear) {
+    const std::lock_guard lock(tls_listener().mutex);
+    tls_listener().hear = std::move(hear);
 }
 
 void flush_log() {

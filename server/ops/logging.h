@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "grpc/rpc_record.h"
 #include "rest/connection.h"
@@ -22,6 +24,9 @@ void start_logging(const LogOptions& options);
 
 /// Gives the log a moment to be written; at the program's end.
 void flush_log();
+
+/// Hears from now on, on any thread, why a client of gRPC's door has no TLS; empty: nobody does.
+void on_grpc_tls_failure(std::function<void(std::string_view reason)> hear);
 
 /// One line for an rpc: method, code, milliseconds, session, request, and what went wrong.
 void log_rpc(const rpc::RpcRecord& record);

@@ -29,6 +29,7 @@
 #include "ops/page.h"
 #include "ops/self_check.h"
 #include "ops/server_options.h"
+#include "ops/tls_refusals.h"
 #include "rest/openapi.h"
 #include "rest/rest_server.h"
 #include "service/machine_memory.h"
@@ -160,6 +161,7 @@ rest::Backend backend_of(rpc::GrpcServer& server, service::MeshingService& servi
     backend.services = {v1::Meshing::service_full_name()};
     backend.ready = [&server] { return server.ready(); };
     backend.admit = rest::admission_of(gate);
+    backend.pace = rest::pace_of(gate);
     backend.metrics = [&metrics, &service] { return metrics.text(service.load()); };
     backend.pages = page_files();
     backend.version = VSPLIT_VERSION;
@@ -168,7 +170,7 @@ rest::Backend backend_of(rpc::GrpcServer& server, service::MeshingService& servi
 
 // Null where --http is off.
 Expected<std::unique_ptr<rest::RestServer>> start_rest(const ServerOptions& options, const std::optional<ListenAddress>& address,
-                                                       rest::Backend backend, Metrics& metrics,
+                                                       rest::Backend backend, Metrics& metrics, TlsRefusals& refusals,
                                                        std::shared_ptr<guard::TlsBook> tls) {
     if (!address) return std::unique_ptr<rest::RestServer>();
     const auto observe = [&metrics](const rest::HttpRecord& record) {
@@ -178,6 +180,7 @@ Expected<std::unique_ptr<rest::RestServer>> start_rest(const ServerOptions& opti
     rest::RestOptions rest = options.rest;
     rest.limits.message_bytes = options.max_message_bytes;
     rest.on_connection_refused = [&metrics] { metrics.connection_refused(); };
+    rest.on_tls_failed = [&refusals](const std::string& peer, const std::string& reason) { refusals.note("http", peer, reason); };
     rest.own_hosts_only = tls == nullptr && options.token_file.empty() && is_loopback(*address);
     return rest::RestServer::start(address->host, address->port, std::move(backend), std::move(rest), observe, std::move(tls));
 }
@@ -204,6 +207,7 @@ Expected<std::optional<store::DataDir>> open_data_dir(const ServerOptions& optio
 
 int serve(const ServerOptions& options, const ListenAddress& address, const std::optional<ListenAddress>& http) {
     Metrics metrics;
+    TlsRefusals refusals(metrics);
     const Expected<Guard> guard = make_guard(options, metrics);
     if (!guard) return fail(options, guard.error().message);
     service::ServiceOptions service_options = options.service;
@@ -227,7 +231,7 @@ int serve(const ServerOptions& options, const ListenAddress& address, const std:
         rpc::GrpcServer::start(address.host, address.port, service, extras_of(options, *guard, metrics));
     if (!server) return fail(options, server.error().message);
     const Expected<std::unique_ptr<rest::RestServer>> rest =
-        start_rest(options, http, backend_of(**server, service, metrics, *guard->gate), metrics, guard->tls);
+        start_rest(options, http, backend_of(**server, service, metrics, *guard->gate), metrics, refusals, guard->tls);
     if (!rest) return fail(options, rest.error().message);
     std::cout << "vsplitd listening on " << address.text(std::to_string((*server)->port()));
     const std::string scheme = guard->tls == nullptr ? "http://" : "https://";

@@ -50,6 +50,7 @@ Metrics::Metrics()
       http_out_(counters(registry_, "vsplit_http_bytes_total", "Bytes of HTTP bodies").Add({{"direction", "out"}})),
       refused_(
           counters(registry_, "vsplit_connections_refused_total", "Connections over --max-connections, of both doors").Add({})),
+      tls_failed_(counters(registry_, "vsplit_tls_handshakes_failed_total", "Clients with which no TLS came about")),
       jobs_(counters(registry_, "vsplit_jobs_total", "Methods that a worker was at, by outcome")),
       job_seconds_(prometheus::BuildHistogram().Name("vsplit_job_seconds").Help("How long methods ran").Register(registry_)),
       job_waited_(
@@ -98,6 +99,7 @@ Metrics::Metrics()
         }
     }
     requests_.Add({{"status", "401"}});
+    for (const char* door : {"grpc", "http"}) tls_failed_.Add({{"door", door}});
 }
 
 void Metrics::rpc_began(std::string_view /*method*/) { running_.Increment(); }
@@ -122,6 +124,8 @@ void Metrics::http_ended(const rest::HttpRecord& record) {
 void Metrics::session_expired() { expired_.Increment(); }
 
 void Metrics::connection_refused() { refused_.Increment(); }
+
+void Metrics::tls_failed(const std::string& door) { tls_failed_.Add({{"door", door}}).Increment(); }
 
 void Metrics::job_ended(const service::JobRecord& record) {
     const std::string method(record.method);

@@ -22,9 +22,10 @@ namespace vsplit::ops {
 ///
 /// vsplit_rpc_seconds (histogram by method) and vsplit_rpcs_total (by method and code) count an rpc once, whichever door it came
 /// by; vsplit_message_bytes_total (by direction) its messages. vsplit_http_requests_total (by status) and vsplit_http_bytes_total
-/// (bodies, by direction) are HTTP's own, vsplit_connections_refused_total is of gRPC connections. vsplit_jobs_total (by method
-/// and outcome), vsplit_job_seconds, vsplit_job_wait_seconds and vsplit_job_faces_total (by method) are of methods that a worker
-/// was at. vsplit_memory_bytes and vsplit_evictions_total are of the budget of memory, vsplit_disk_bytes,
+/// (bodies, by direction) are HTTP's own, vsplit_connections_refused_total and vsplit_tls_handshakes_failed_total (by door) are
+/// of both doors' connections. vsplit_jobs_total (by method and outcome), vsplit_job_seconds, vsplit_job_wait_seconds and
+/// vsplit_job_faces_total (by method) are of methods that a worker was at. vsplit_memory_bytes and vsplit_evictions_total are of
+/// the budget of memory, vsplit_disk_bytes,
 /// vsplit_sessions_set_aside, vsplit_blobs_set_aside and vsplit_data_dir_refuses_writes of the data directory,
 /// vsplit_files_unusable of certificates and tokens. process_* are those that Prometheus' clients have.
 class Metrics final : public rpc::RpcMeter {
@@ -37,6 +38,8 @@ public:
     void message_out(std::size_t bytes) override;
     void http_ended(const rest::HttpRecord& record);
     void connection_refused();
+    /// No TLS came about with a client at the door "grpc" or "http".
+    void tls_failed(const std::string& door);
     void job_ended(const service::JobRecord& record);
     void session_expired();
     /// A file that is watched was read anew, or could not be used.
@@ -57,6 +60,7 @@ private:
     prometheus::Counter& http_in_;
     prometheus::Counter& http_out_;
     prometheus::Counter& refused_;
+    prometheus::Family<prometheus::Counter>& tls_failed_;
     prometheus::Family<prometheus::Counter>& jobs_;
     prometheus::Family<prometheus::Histogram>& job_seconds_;
     prometheus::Family<prometheus::Histogram>& job_waited_;

@@ -33,4 +33,13 @@ template <class Number>
     return number_range(least, std::numeric_limits<Number>::max());
 }
 
+/// 0, which is no limit, or what `range` takes.
+[[nodiscard]] inline CLI::Validator zero_or(const CLI::Validator& range) {
+    const auto check = [range, zero = number_range(0.0, 0.0)](const std::string& text) {
+        const std::string wrong = zero(text).empty() ? std::string() : range(text);
+        return wrong.empty() ? wrong : wrong + ", and 0";
+    };
+    return {check, "0 or " + range.get_description(), "zero_or"};
+}
+
 }  // namespace vsplit::ops

@@ -166,7 +166,7 @@ private:
         add("--max-message-memory-bytes", options_.max_message_memory,
             "Bytes of gRPC messages on their way in, of all connections; 0: sixteen of the largest", 0);
         add("--max-connections", options_.rest.limits.connections, "Connections at a time, by gRPC and by HTTP each");
-        add_within(number_range(0.0, 1e9), "--max-request-rate", options_.max_request_rate,
+        add_within(zero_or(number_range(0.001, 1e9)), "--max-request-rate", options_.max_request_rate,
                    "Requests a second of one client, a token or else an address, and twice as many at once; 0: no limit");
     }
 

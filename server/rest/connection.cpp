@@ -14,6 +14,7 @@ namespace {
 
 // For the last answer to reach a client that is still sending: closed at once, TCP would take it back.
 constexpr std::chrono::seconds kLingerTime{2};
+constexpr std::chrono::seconds kRefusalTime{2};  // for TLS with who is turned away
 constexpr std::size_t kLingerBytes = std::size_t{8} << 20;
 
 #if defined(TCP_NOTSENT_LOWAT)
@@ -67,14 +68,24 @@ std::optional<Problem> check_header(const http::request<http::buffer_body>& requ
     return std::nullopt;
 }
 
+std::string peer_of(Stream& stream) {
+    ErrorCode failed;
+    const net::ip::tcp::endpoint peer = stream.socket().remote_endpoint(failed);
+    return failed ? "" : peer.address().to_string();
+}
+
 RequestMark mark_of(const http::request<http::buffer_body>& request, Stream& stream) {
     const auto field = [&request](const char* name) {
         const auto text = request[name];
         return std::string_view(text.data(), text.size());
     };
-    ErrorCode failed;
-    const net::ip::tcp::endpoint peer = stream.socket().remote_endpoint(failed);
-    return mark_request(field(wire::kRequestIdKey), field(wire::kTraceparentKey), failed ? "" : peer.address().to_string());
+    return mark_request(field(wire::kRequestIdKey), field(wire::kTraceparentKey), peer_of(stream));
+}
+
+ResponseManner with_mark(ResponseManner manner, const RequestMark& mark) {
+    manner.fields.emplace_back("X-Request-Id", mark.id);
+    manner.fields.emplace_back(wire::kTraceparentKey, wire::to_traceparent(mark.trace));
+    return manner;
 }
 
 }  // namespace
@@ -104,15 +115,18 @@ void Connection::close() {
     net::post(stream_.get_executor(), [self = shared_from_this()] { self->stream_.close(); });
 }
 
-Awaitable<bool> Connection::secure() {
+Awaitable<bool> Connection::secure(std::chrono::milliseconds longest) {
     if (!stream_.secure()) co_return true;
-    stream_.expires_after(gateway_.limits().header_time);
+    stream_.expires_after(longest);
     const ErrorCode failed = co_await stream_.handshake();
+    // Who only looks whether somebody listens, and says nothing, is another error.
+    const auto& on_failed = gateway_.options().on_tls_failed;
+    if (failed.category() == net::error::get_ssl_category() && on_failed) on_failed(peer_of(stream_), failed.message());
     co_return !failed;
 }
 
 Awaitable<void> Connection::run() {
-    if (!co_await secure()) {
+    if (!co_await secure(gateway_.limits().header_time)) {
         stream_.close();
         co_return;
     }
@@ -128,17 +142,19 @@ Awaitable<void> Connection::run() {
 }
 
 Awaitable<void> Connection::refuse() {
-    const ResponseManner manner{11, false, false, {}};
     RequestParser parser;
-    if (!co_await secure()) {
+    RequestMark mark = mark_of(parser.get(), stream_);
+    if (!co_await secure(kRefusalTime)) {
         stream_.close();
         co_return;
     }
-    Exchange exchange(stream_, buffer_, parser, manner, gateway_.limits());
+    ResponseManner manner = with_mark({11, false, false, {}}, mark);
+    Exchange exchange(stream_, buffer_, parser, std::move(manner), gateway_.limits(), std::move(mark));
     Error error{Cause::kUnavailable,
                 "the server has " + std::to_string(gateway_.limits().connections) + " connections, its limit max_connections", "",
                 1};
     co_await exchange.fail(problem_of(error));
+    tell_refusal(exchange);
     co_await linger();
     stream_.close();
 }
@@ -168,8 +184,7 @@ Awaitable<bool> Connection::serve_one(bool last) {
     ResponseManner manner = gateway_.manner_of(parser.get());
     if (last || draining_) manner.keep_alive = false;
     RequestMark mark = mark_of(parser.get(), stream_);
-    manner.fields.emplace_back("X-Request-Id", mark.id);
-    manner.fields.emplace_back(wire::kTraceparentKey, wire::to_traceparent(mark.trace));
+    manner = with_mark(std::move(manner), mark);
     Exchange exchange(stream_, buffer_, parser, std::move(manner), limits, std::move(mark));
     const auto start = std::chrono::steady_clock::now();
     co_await answer(exchange);
@@ -204,12 +219,16 @@ Awaitable<void> Connection::answer(Exchange& exchange) {
 Awaitable<void> Connection::refuse_header(RequestParser& parser, const ErrorCode& why) {
     std::optional<Problem> problem = header_problem(why, gateway_.limits());
     if (!problem) co_return;
-    const ResponseManner manner{11, false, false, {}};
-    Exchange exchange(stream_, buffer_, parser, manner, gateway_.limits());
-    const unsigned status = problem->status;
+    RequestMark mark = mark_of(parser.get(), stream_);  // of what could be read
+    ResponseManner manner = with_mark({11, false, false, {}}, mark);
+    Exchange exchange(stream_, buffer_, parser, std::move(manner), gateway_.limits(), std::move(mark));
     co_await exchange.fail(*problem);
-    if (observer_) observer_({"-", "-", status, 0, exchange.response().sent(), {}});
+    tell_refusal(exchange);
     co_await linger();
+}
+
+void Connection::tell_refusal(Exchange& exchange) {
+    if (observer_) observer_({"-", "-", exchange.response().status(), 0, exchange.response().sent(), {}, exchange.mark()});
 }
 
 Awaitable<void> Connection::linger() {

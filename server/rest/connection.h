@@ -47,11 +47,12 @@ public:
     void close();
 
 private:
-    Awaitable<bool> secure();
+    Awaitable<bool> secure(std::chrono::milliseconds longest);
     Awaitable<bool> wait_for_request();
     Awaitable<bool> serve_one(bool last);
     Awaitable<void> refuse_header(RequestParser& parser, const ErrorCode& why);
     Awaitable<void> answer(Exchange& exchange);
+    void tell_refusal(Exchange& exchange);
     Awaitable<void> linger();
 
     Stream stream_;

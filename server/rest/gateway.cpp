@@ -66,6 +66,14 @@ std::function<Status(const Exchange&)> admission_of(guard::Gatekeeper& gate) {
     };
 }
 
+std::function<Status(const Exchange&)> pace_of(guard::Gatekeeper& gate) {
+    return [admit = admission_of(gate)](const Exchange& exchange) -> Status {
+        Status admitted = admit(exchange);
+        if (!admitted && admitted.error().cause == Cause::kLimitExceeded) return admitted;
+        return Done{};
+    };
+}
+
 Gateway::Gateway(Backend backend, RestOptions options, std::unique_ptr<Schema> schema, Router router)
     : backend_(std::move(backend)),
       options_(std::move(options)),
@@ -103,31 +111,44 @@ ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& reques
     return manner;
 }
 
+// Answers a request that comes too soon, if this is one. Rpcs and guarded pages are counted by the gate that they pass.
+Awaitable<bool> Gateway::in_time(Exchange& exchange) {
+    const Status paced = backend_.pace == nullptr ? Status(Done{}) : backend_.pace(exchange);
+    if (paced) co_return true;
+    co_await exchange.fail(problem_of(paced.error()));
+    co_return false;
+}
+
+Awaitable<void> Gateway::refuse(Exchange& exchange, const Problem& problem) {
+    if (co_await in_time(exchange)) co_await exchange.fail(problem);
+}
+
 Awaitable<void> Gateway::serve(Exchange& exchange) {
     if (!is_metadata(exchange.header(http::field::authorization))) {
-        co_return co_await exchange.fail(http_problem(
-            400, Cause::kMalformedInput, "the header holds more than visible ASCII; accepted is Bearer TOKEN", "Authorization"));
+        co_return co_await refuse(
+            exchange, http_problem(400, Cause::kMalformedInput,
+                                   "the header holds more than visible ASCII; accepted is Bearer TOKEN", "Authorization"));
     }
     const std::string_view host = exchange.header(http::field::host);
     if (options_.own_hosts_only && !is_own_host(host, options_.cors_origins)) {
-        co_return co_await exchange.fail(
-            http_problem(421, Cause::kInvalidOption,
-                         "this server is not known as " + wire::valid_utf8(host, kQuotedBytes) +
-                             "; accepted are addresses, localhost, and the hosts of vsplitd --cors-origin",
-                         "Host"));
+        co_return co_await refuse(exchange,
+                                  http_problem(421, Cause::kInvalidOption,
+                                               "this server is not known as " + wire::valid_utf8(host, kQuotedBytes) +
+                                                   "; accepted are addresses, localhost, and the hosts of vsplitd --cors-origin",
+                                               "Host"));
     }
     const std::string_view origin = exchange.header(http::field::origin);
     if (check_origin(origin, host, options_.cors_origins).refused) {
-        co_return co_await exchange.fail(http_problem(403, Cause::kInvalidOption,
-                                                      "pages of " + wire::valid_utf8(origin, kQuotedBytes) +
-                                                          " may not use this server; vsplitd --cors-origin allows an origin",
-                                                      "Origin"));
+        co_return co_await refuse(exchange, http_problem(403, Cause::kInvalidOption,
+                                                         "pages of " + wire::valid_utf8(origin, kQuotedBytes) +
+                                                             " may not use this server; vsplitd --cors-origin allows an origin",
+                                                         "Origin"));
     }
     if (exchange.target() == "*" && exchange.method() == "OPTIONS") {
         co_return co_await serve_options(exchange, "DELETE, GET, HEAD, OPTIONS, POST, PUT");
     }
     const Expected<Target> target = parse_target(exchange.target());
-    if (!target) co_return co_await exchange.fail(problem_of(target.error()));
+    if (!target) co_return co_await refuse(exchange, problem_of(target.error()));
     co_await serve_target(exchange, *target);
 }
 
@@ -136,22 +157,28 @@ Awaitable<void> Gateway::serve_target(Exchange& exchange, const Target& target) 
     const bool ready_page = target.path == kReadyPath;
     if (page != pages_.end() || ready_page) {
         if (exchange.method() == "OPTIONS") co_return co_await serve_options(exchange, std::string(kPageMethods));
-        if (!is_get(exchange)) co_return co_await exchange.fail(wrong_method(exchange, target.path, std::string(kPageMethods)));
+        if (!is_get(exchange))
+            co_return co_await refuse(exchange, wrong_method(exchange, target.path, std::string(kPageMethods)));
         if (ready_page) co_return co_await serve_ready(exchange);
         const bool guarded = page->second.guarded && backend_.admit != nullptr;
         const Status admitted = guarded ? backend_.admit(exchange) : Status(Done{});
         if (!admitted) co_return co_await exchange.fail(problem_of(admitted.error()));
+        const bool free = guarded || target.path == kHealthPath;
+        if (!free) {
+            if (!co_await in_time(exchange)) co_return;
+        }
         co_return co_await serve_page(exchange, page->second);
     }
     const std::vector<const Route*> routes = router_.match(target.path);
-    if (routes.empty()) co_return co_await exchange.fail(no_such_path(target.path));
+    if (routes.empty()) co_return co_await refuse(exchange, no_such_path(target.path));
     if (exchange.method() == "OPTIONS") co_return co_await serve_options(exchange, allowed_methods(routes));
     const Route* const route = find_route(routes, exchange.method());
-    if (route == nullptr) co_return co_await exchange.fail(wrong_method(exchange, target.path, allowed_methods(routes)));
+    if (route == nullptr) co_return co_await refuse(exchange, wrong_method(exchange, target.path, allowed_methods(routes)));
     co_await serve_rpc(exchange, *route, target);
 }
 
 Awaitable<void> Gateway::serve_options(Exchange& exchange, const std::string& allowed) {
+    if (!co_await in_time(exchange)) co_return;
     ResponseHead head;
     head.status = 204;
     head.fields.emplace_back("Allow", allowed);
@@ -182,7 +209,7 @@ Awaitable<void> Gateway::serve_ready(Exchange& exchange) {
         const Error error{Cause::kUnavailable, "the server is shutting down", ""};
         co_return co_await exchange.fail(problem_of(error));
     }
-    co_await serve_page(exchange, pages_.find("/healthz")->second);
+    co_await serve_page(exchange, pages_.find(kHealthPath)->second);
 }
 
 Awaitable<void> Gateway::serve_rpc(Exchange& exchange, const Route& route, const Target& target) {

@@ -24,6 +24,7 @@ struct Backend {
     std::vector<std::string> services{};              ///< full names
     std::function<bool()> ready{};                    ///< whether new work is taken; empty: always
     std::function<Status(const Exchange&)> admit{};   ///< who may see a guarded page; empty: everybody
+    std::function<Status(const Exchange&)> pace{};    ///< whether a client may ask for what is no rpc so soon; empty: it may
     std::function<std::string()> metrics{};           ///< text for /metrics; empty: no such page
     Pages pages{};                                    ///< more of them, or others in their place
     std::string version{};                            ///< of the server, for the OpenAPI document
@@ -31,6 +32,9 @@ struct Backend {
 
 /// What lets those in whose token at least reads. `gate` must outlive it.
 [[nodiscard]] std::function<Status(const Exchange&)> admission_of(guard::Gatekeeper& gate);
+
+/// What counts a request of its client, whoever it is, and refuses those that come too fast. `gate` must outlive it.
+[[nodiscard]] std::function<Status(const Exchange&)> pace_of(guard::Gatekeeper& gate);
 
 /// Decides what answers a request. Thread-safe but for its set-up.
 class Gateway {
@@ -40,6 +44,7 @@ public:
     ~Gateway();
 
     [[nodiscard]] const RestLimits& limits() const { return options_.limits; }
+    [[nodiscard]] const RestOptions& options() const { return options_; }
 
     /// How the answer to this request is written.
     [[nodiscard]] ResponseManner manner_of(const http::request<http::buffer_body>& request);
@@ -50,6 +55,8 @@ public:
 private:
     Gateway(Backend backend, RestOptions options, std::unique_ptr<Schema> schema, Router router);
 
+    Awaitable<bool> in_time(Exchange& exchange);
+    Awaitable<void> refuse(Exchange& exchange, const Problem& problem);
     Awaitable<void> serve_target(Exchange& exchange, const Target& target);
     Awaitable<void> serve_options(Exchange& exchange, const std::string& allowed);
     Awaitable<void> serve_page(Exchange& exchange, const Page& page);

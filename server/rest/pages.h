@@ -35,6 +35,7 @@ struct Operations {
 /// "/", "/healthz", "/metrics" and "/openapi.json". What is not ready is a problem, so kReadyPath is none of them.
 [[nodiscard]] Pages operations_pages(const Operations& operations);
 
+inline constexpr std::string_view kHealthPath = "/healthz";
 inline constexpr std::string_view kReadyPath = "/readyz";
 
 }  // namespace vsplit::rest

@@ -13,7 +13,7 @@ namespace vsplit::rest {
 
 /// What one client may use up, and what all together may.
 struct RestLimits {
-    std::size_t connections = 2000;                           ///< at a time; more are answered 503
+    std::size_t connections = 2000;                           ///< at a time; more are answered 503, or closed
     std::size_t requests = 10'000;                            ///< on one connection, then it is closed
     std::uint32_t header_bytes = 16 * 1024;                   ///< first line and header of a request
     std::size_t ahead_bytes = std::size_t{64} * 1024;         ///< of requests that a client sends before it has its answer
@@ -31,7 +31,9 @@ struct RestOptions {
     std::vector<std::string> cors_origins;  ///< pages of these origins may use the server; "*" for all. Default: none but its own
     bool own_hosts_only = false;  ///< refuses a Host that is_own_host does not know; for servers that trust who reaches them
     std::function<void()> on_connection_refused{};  ///< of a connection over the limit
-    unsigned threads = 2;                           ///< that speak to clients; none of them computes
+    /// Of a client with which no TLS came about, but those that only looked whether somebody listens.
+    std::function<void(const std::string& peer, const std::string& reason)> on_tls_failed{};
+    unsigned threads = 2;  ///< that speak to clients; none of them computes
 };
 
 }  // namespace vsplit::rest

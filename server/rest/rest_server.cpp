@@ -91,23 +91,38 @@ private:
     }
 
     void welcome(tcp::socket socket) {
+        const bool room = has_place();
+        if (!room && on_refused_) on_refused_();
+        if (!room && !begin_refusal()) return;  // which closes it
         const auto executor = socket.get_executor();
         const auto connection =
             std::make_shared<Connection>(std::move(socket), tls_ ? tls_->current()->context : nullptr, *gateway_, observer_);
-        bool room = false;
         {
             const std::lock_guard lock(mutex_);
-            room = connections_.size() < gateway_->limits().connections;
             connections_.insert(connection);
             if (draining_) connection->serve_one_only();
         }
-        if (!room && on_refused_) on_refused_();
         net::co_spawn(executor, room ? connection->run() : connection->refuse(),
-                      [this, connection](const std::exception_ptr& /*bad_alloc*/) { leave(connection); });
+                      [this, connection, room](const std::exception_ptr& /*bad_alloc*/) { leave(connection, room); });
     }
 
-    void leave(const std::shared_ptr<Connection>& connection) {
+    bool has_place() {
         const std::lock_guard lock(mutex_);
+        return connections_.size() - refusals_ < gateway_->limits().connections;
+    }
+
+    /// Whether one that has no place may be told so: it takes a descriptor and memory meanwhile, and is in no hurry perhaps.
+    bool begin_refusal() {
+        constexpr std::size_t kMost = 32;
+        const std::lock_guard lock(mutex_);
+        if (refusals_ >= kMost) return false;
+        ++refusals_;
+        return true;
+    }
+
+    void leave(const std::shared_ptr<Connection>& connection, bool had_place) {
+        const std::lock_guard lock(mutex_);
+        if (!had_place) --refusals_;
         connections_.erase(connection);
         if (connections_.empty()) empty_.notify_all();
     }
@@ -126,6 +141,7 @@ private:
     std::mutex mutex_;
     std::condition_variable empty_;
     std::unordered_set<std::shared_ptr<Connection>> connections_;
+    std::size_t refusals_ = 0;  // of the connections, those that are turned away
     bool draining_ = false;
     bool accepting_ = true;
 };

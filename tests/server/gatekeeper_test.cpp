@@ -92,6 +92,14 @@ TEST_F(GatekeeperTest, CountsRequestsByTokenAndByAddressWhereThereIsNone) {
     EXPECT_NE(refused.error().message.find("max_request_rate"), std::string::npos);
 }
 
+TEST(RateLimiterTest, NamesAWaitForTheSmallestRatesToo) {
+    for (const auto& [rate, longest] : {std::pair(0.001, 1000U), {1e-300, 1'000'000'000U}}) {
+        RateLimiter limiter(rate);
+        EXPECT_EQ(limiter.take("a", {}), 0U);
+        EXPECT_EQ(limiter.take("a", {}), longest) << rate;
+    }
+}
+
 TEST(RateLimiterTest, HoldsTheRateAfterTwoSecondsWorthAtOnce) {
     RateLimiter limiter(10);
     RateLimiter::Clock::time_point now{};

@@ -100,7 +100,7 @@ TEST_F(ServerOptionsTest, RefusesWhatIsNoNumberOfItsRangeWhereverItComes) {
     const std::vector<const char*> fractions{"nan", "-nan", "inf", "-inf", "-1", "1e400", "1e10", "0x10", "many"};
     const std::vector<const char*> wholes{"nan", "inf", "-1", "1.5", "1e3", "0x10", "99999999999999999999999", "many"};
     for (const Wrong& wrong : {
-             Wrong{"max-request-rate", fractions, "a number from 0 to 1e+09"},
+             Wrong{"max-request-rate", fractions, "a number from 0.001 to 1e+09, and 0"},
              Wrong{"slow-job", fractions, "a number from 0 to 1e+09"},
              Wrong{"max-sessions", wholes, "a whole number from 1 to 4294967295"},
              Wrong{"max-waiting", wholes, "a whole number from 0 to 4294967295"},
@@ -128,6 +128,8 @@ TEST_F(ServerOptionsTest, RefusesWhatIsNoNumberOfItsRangeWhereverItComes) {
         }
     }
     EXPECT_EQ(options({"--max-request-rate", "2.5"}).max_request_rate, 2.5);
+    EXPECT_EQ(options({"--max-request-rate", "0"}).max_request_rate, 0);
+    for (const char* no_limit : {"1e-300", "0.0009"}) EXPECT_TRUE(refused({"--max-request-rate", no_limit})) << no_limit;
     EXPECT_EQ(options({"--max-upload-bytes=18446744073709551615"}).service.limits.upload_bytes, 18446744073709551615U);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 
 namespace vsplit::wire {
 namespace {
@@ -23,6 +24,16 @@ TEST(TraceContextTest, ReadsALaterVersionThatHasMore) {
     EXPECT_FALSE(parse_traceparent("cc" + kExample.substr(2) + ".what"));
     EXPECT_FALSE(parse_traceparent(kExample + "-more"));
     EXPECT_FALSE(parse_traceparent("ff" + kExample.substr(2)));
+}
+
+TEST(TraceContextTest, PassesOnTheBitThatIsDefinedAlone) {
+    const std::string whose = kExample.substr(2, 51);
+    for (const auto& [version, flags, passed] :
+         {std::tuple("00", "ff", "01"), {"00", "fe", "00"}, {"01", "0b", "01"}, {"00", "02", "00"}}) {
+        const auto trace = parse_traceparent(version + whose + flags);
+        ASSERT_TRUE(trace) << version << whose << flags;
+        EXPECT_EQ(trace->flags, passed) << version << ' ' << flags;
+    }
 }
 
 TEST(TraceContextTest, TakesNothingThatIsBroken) {
