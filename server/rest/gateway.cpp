@@ -112,7 +112,7 @@ ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& reques
 }
 
 // Answers a request that comes too soon, if this is one. Rpcs and guarded pages are counted by the gate that they pass.
-Awaitable<bool> Gateway::in_time(Exchange& exchange) {
+Awaitable<bool> Gateway::in_time(Exchange& exchange) const {
     Status paced = Done{};
     if (backend_.pace) paced = backend_.pace(exchange);
     if (paced) co_return true;
