@@ -101,11 +101,6 @@ std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> LiveCalls
     return std::make_unique<Factory>(*this);
 }
 
-std::size_t LiveCalls::count() const {
-    const std::lock_guard lock(mutex_);
-    return all_;
-}
-
 Status LiveCalls::begin(const grpc_auth_context* connection, MethodName::Kind kind) {
     const std::lock_guard lock(mutex_);
     ++by_connection_[connection];

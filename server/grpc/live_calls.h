@@ -29,9 +29,6 @@ public:
     /// What keeps count, for the server's builder.
     [[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> counter();
 
-    /// Calls that are there now.
-    [[nodiscard]] std::size_t count() const;
-
 private:
     class Call;
     class Factory;

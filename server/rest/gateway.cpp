@@ -112,15 +112,18 @@ ResponseManner Gateway::manner_of(const http::request<http::buffer_body>& reques
 }
 
 // Answers a request that comes too soon, if this is one. Rpcs and guarded pages are counted by the gate that they pass.
-Awaitable<bool> Gateway::in_time(Exchange& exchange) {
-    const Status paced = backend_.pace == nullptr ? Status(Done{}) : backend_.pace(exchange);
+Awaitable<bool> Gateway::in_time(Exchange& exchange) const {
+    Status paced = Done{};
+    if (backend_.pace) paced = backend_.pace(exchange);
     if (paced) co_return true;
     co_await exchange.fail(problem_of(paced.error()));
     co_return false;
 }
 
 Awaitable<void> Gateway::refuse(Exchange& exchange, const Problem& problem) {
-    if (co_await in_time(exchange)) co_await exchange.fail(problem);
+    const bool in_turn = co_await in_time(exchange);  // g++ 12 makes an illegal instruction of if (co_await a) co_await b;
+    if (!in_turn) co_return;
+    co_await exchange.fail(problem);
 }
 
 Awaitable<void> Gateway::serve(Exchange& exchange) {

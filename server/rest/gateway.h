@@ -55,7 +55,7 @@ public:
 private:
     Gateway(Backend backend, RestOptions options, std::unique_ptr<Schema> schema, Router router);
 
-    Awaitable<bool> in_time(Exchange& exchange);
+    Awaitable<bool> in_time(Exchange& exchange) const;
     Awaitable<void> refuse(Exchange& exchange, const Problem& problem);
     Awaitable<void> serve_target(Exchange& exchange, const Target& target);
     Awaitable<void> serve_options(Exchange& exchange, const std::string& allowed);
