@@ -13,7 +13,7 @@ struct CallMark {
 
 /// On whose behalf something is done. Sessions belong to the owner that made them; for any other they are not there.
 struct Caller {
-    std::string owner{};       ///< name of a token; empty where the server takes calls without: all of those are one owner
+    std::string owner{};  ///< name of a token; empty where the server takes calls without: all of those are one owner
     CallMark mark{};
 };
 

@@ -33,7 +33,8 @@ public:
     /// Sound rows, by what `key_of` says of them. Indices, which may be what is damaged, are not used.
     template <class Read, class Key>
     auto table(const std::string& name, const Read& read, const Key& key_of) {
-        std::map<decltype(key_of(read(std::declval<const Statement&>()))), decltype(read(std::declval<const Statement&>()))> found;
+        std::map<decltype(key_of(read(std::declval<const Statement&>()))), decltype(read(std::declval<const Statement&>()))>
+            found;
         for (Database& database : databases_) {
             for (const char* order : {"ASC", "DESC"}) {
                 Statement rows = database.prepare(("SELECT * FROM " + name + " NOT INDEXED ORDER BY rowid " + order).c_str());
