@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
+#include <memory>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -13,12 +13,10 @@ namespace vsplit {
 /// megabytes otherwise waits for the tables that say where the small ones are. A wish; nothing depends on it.
 inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
-    constexpr std::uintptr_t kHugePage = std::uintptr_t{1} << 21U;
-    constexpr std::uintptr_t kMask = kHugePage - 1;
-    const auto address = reinterpret_cast<std::uintptr_t>(begin);
-    const std::uintptr_t first = (address + kMask) & ~kMask;
-    const std::uintptr_t last = (address + bytes) & ~kMask;
-    if (first < last) static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
+    constexpr std::size_t kHugePage = std::size_t{1} << 21U;
+    std::size_t room = bytes;
+    if (std::align(kHugePage, kHugePage, begin, room) != nullptr)
+        static_cast<void>(madvise(begin, room / kHugePage * kHugePage, MADV_HUGEPAGE));
 #endif
 }
 
