@@ -24,6 +24,8 @@ Error too_many(std::size_t limit, const char* what, const char* name) {
             service::kRetryAfter};
 }
 
+bool stays(MethodName::Kind kind) { return kind == MethodName::Kind::kOpen || kind == MethodName::Kind::kUnknown; }
+
 // Null for a call within the process.
 const grpc_auth_context* connection_of(grpc_call* call) {
     grpc_auth_context* const connection = grpc_call_auth_context(call);
@@ -87,7 +89,7 @@ Status LiveCalls::admit(const grpc_auth_context* connection, MethodName::Kind ki
     }
     if (most_ == 0) return Done{};
     if (all_ >= with_leaving(most_)) return too_many(most_, "rpcs run in this server", "max_rpcs");
-    return kind == MethodName::Kind::kContract ? Status(Done{}) : admit_open(open_ + 1);
+    return stays(kind) ? admit_open(open_ + 1) : Status(Done{});
 }
 
 // Lock held, or no need of one.
@@ -105,7 +107,7 @@ Status LiveCalls::begin(const grpc_auth_context* connection, MethodName::Kind ki
     const std::lock_guard lock(mutex_);
     ++by_connection_[connection];
     ++all_;
-    return kind == MethodName::Kind::kContract ? Status(Done{}) : admit_open(++open_);
+    return stays(kind) ? admit_open(++open_) : Status(Done{});
 }
 
 void LiveCalls::end(const grpc_auth_context* connection, MethodName::Kind kind) {
@@ -113,7 +115,7 @@ void LiveCalls::end(const grpc_auth_context* connection, MethodName::Kind kind) 
     const auto here = by_connection_.find(connection);
     if (--here->second == 0) by_connection_.erase(here);
     --all_;
-    if (kind != MethodName::Kind::kContract) --open_;
+    if (stays(kind)) --open_;
 }
 
 }  // namespace vsplit::rpc

@@ -21,10 +21,11 @@ Names all_names() {
         names['/' + contract->full_name() + '/' + name] = {MethodName::Kind::kContract, name};
     }
     // Those that gRPC brings.
-    for (const char* open : {"grpc.health.v1.Health/Check", "grpc.health.v1.Health/Watch",
-                             "grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo"}) {
+    for (const char* open : {"grpc.health.v1.Health/Watch", "grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo"}) {
         names[std::string("/") + open] = {MethodName::Kind::kOpen, open};
     }
+    constexpr const char* kProbe = "grpc.health.v1.Health/Check";
+    names[std::string("/") + kProbe] = {MethodName::Kind::kProbe, kProbe};
     return names;
 }
 

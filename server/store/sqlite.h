@@ -32,7 +32,7 @@ public:
     /// Whether it can be written: its file may be read-only, or its header say so.
     [[nodiscard]] bool writable() const { return sqlite3_db_readonly(handle_.get(), "main") == 0; }
 
-    /// Whether its file is no longer in its place: what is written then is lost with the process.
+    /// Whether its file, or its log, is no longer in its place: what is written then is lost with the process.
     [[nodiscard]] bool moved() const;
 
     /// What went wrong last: LIMIT_EXCEEDED (the disk is full), CORRUPT, UNAVAILABLE.

@@ -113,20 +113,30 @@ Expected<std::set<std::string>> schema_of(Database& database) {
     }
 }
 
-// A bit that changes in the name of a column or in a trigger leaves a sound database, which works otherwise. What somebody has
-// added is no damage.
-Status check_schema(Database& database) {
+Expected<std::set<std::string>> our_schema() {
     Expected<Database> fresh = Database::open(":memory:");
     if (!fresh) return fresh.error();
     for (const char* step : kSteps) {
-        if (Status taken = fresh->run(step); !taken) return taken;
+        if (Status taken = fresh->run(step); !taken) return taken.error();
     }
-    const Expected<std::set<std::string>> wanted = schema_of(*fresh);
+    return schema_of(*fresh);
+}
+
+// A bit that changes in the name of a column or in a trigger leaves a sound database, which works otherwise. What somebody has
+// added is no damage.
+Status check_schema(Database& database) {
+    const Expected<std::set<std::string>> wanted = our_schema();
     if (!wanted) return wanted.error();
     const Expected<std::set<std::string>> found = schema_of(database);
     if (!found) return found.error();
     if (std::includes(found->begin(), found->end(), wanted->begin(), wanted->end())) return Done{};
     return Error{Cause::kCorrupt, "the data directory's index: its schema is not as it was written", ""};
+}
+
+bool has_only_our_schema(Database& database) {
+    const Expected<std::set<std::string>> wanted = our_schema();
+    const Expected<std::set<std::string>> found = schema_of(database);
+    return wanted && found && *wanted == *found;
 }
 
 }  // namespace
@@ -160,8 +170,8 @@ Status SqliteSessionIndex::prepare_schema(bool writable) {
     const Expected<std::int64_t> version = one_number(database_, "PRAGMA user_version");
     if (!version) return version.error();
     if (*version == kVersion) return check_schema(database_);
-    // A later one has another schema; what has this one and says otherwise is damaged.
-    if (*version > kVersion && check_schema(database_))
+    // A later one has another schema; what has this very one and says otherwise is damaged.
+    if (*version > kVersion && has_only_our_schema(database_))
         return Error{Cause::kCorrupt, "the data directory's index: it says that its version is " + std::to_string(*version), ""};
     if (*version > kVersion) {
         return Error{Cause::kUnsupported,

@@ -223,7 +223,7 @@ TEST_F(DataDirTest, ALaterVersionIsLeftAlone) {
     ASSERT_TRUE(open());
     {
         auto database = Database::open(directory_ / "sessions.db");
-        ASSERT_TRUE(database && database->run("ALTER TABLE sessions ADD COLUMN later TEXT; PRAGMA user_version = 4"));
+        ASSERT_TRUE(database && database->run("CREATE TABLE later (number INTEGER); PRAGMA user_version = 4"));
     }
     const auto opened = open();
     ASSERT_FALSE(opened);
@@ -265,11 +265,15 @@ TEST_F(DataDirTest, AnIndexThatIsMovedAwayKeepsNothingInSilence) {
     ASSERT_TRUE(open());
     const auto index = *SqliteSessionIndex::open(directory_ / "sessions.db");
     ASSERT_TRUE(index->add_loose("blob"));
-    std::filesystem::rename(directory_ / "sessions.db", directory_ / "away");
-    const Status kept = index->add_loose("another");
-    ASSERT_FALSE(kept);
-    EXPECT_EQ(kept.error().cause, Cause::kUnavailable);
-    EXPECT_THAT(kept.error().message, HasSubstr("was moved or deleted"));
+    for (const char* name : {"sessions.db", "sessions.db-wal"}) {
+        std::filesystem::rename(directory_ / name, directory_ / "away");
+        const Status kept = index->add_loose("another");
+        ASSERT_FALSE(kept) << name;
+        EXPECT_EQ(kept.error().cause, Cause::kUnavailable);
+        EXPECT_THAT(kept.error().message, HasSubstr("was moved or deleted"));
+        std::filesystem::rename(directory_ / "away", directory_ / name);
+        EXPECT_TRUE(index->add_loose("another")) << name;
+    }
 }
 
 TEST_F(DataDirTest, OneThatOthersCanReadIsTold) {
