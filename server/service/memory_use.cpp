@@ -10,7 +10,8 @@ namespace {
 
 // Measured: docs/operations.md, "Memory". Bytes a face.
 constexpr std::uint64_t kToSimplify = 260;
-constexpr std::uint64_t kToRead = 70;
+constexpr std::uint64_t kToReadStl = 70;
+constexpr std::uint64_t kToRead = 150;  // with the three vertices a face that a reader takes at most
 constexpr std::uint64_t kToRepair = 270;
 constexpr std::uint64_t kToMeasure = 100;
 constexpr std::uint64_t kToWrite = 250;
@@ -18,7 +19,7 @@ constexpr std::uint64_t kToWriteSecondOrder = 550;
 
 // Of a file, a face usually takes no less.
 constexpr std::uint64_t kStlFace = 50;
-constexpr std::uint64_t kOtherFace = 15;
+constexpr std::uint64_t kOtherFace = 20;
 
 }  // namespace
 
@@ -44,11 +45,12 @@ std::uint64_t memory_of(const MethodOptions& options) {
         options);
 }
 
-std::uint64_t usual_faces(std::span<const std::byte> file) {
-    return 1 + unpacked_size(file) / (detect_format(file) == MeshFormat::kStlBinary ? kStlFace : kOtherFace);
+ReadingEstimate estimate_reading(std::span<const std::byte> file, bool repair) {
+    const bool stl = detect_format(file) == MeshFormat::kStlBinary;
+    return {1 + unpacked_size(file) / (stl ? kStlFace : kOtherFace), repair ? kToRepair : stl ? kToReadStl : kToRead};
 }
 
-std::uint64_t memory_to_read(std::uint64_t faces, bool repair) { return faces * (repair ? kToRepair : kToRead); }
+std::uint64_t memory_to_repair(std::uint64_t faces) { return kToRepair * faces; }
 
 std::uint64_t memory_to_measure(std::uint64_t faces) { return kToMeasure * faces; }
 

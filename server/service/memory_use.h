@@ -18,11 +18,15 @@ namespace vsplit::service {
 /// What a request holds: arrays may be as large as a mesh.
 [[nodiscard]] std::uint64_t memory_of(const MethodOptions& options);
 
-/// How many faces a file of this size has at most, unless it has polygons of many corners, or names them twice.
-[[nodiscard]] std::uint64_t usual_faces(std::span<const std::byte> file);
+/// Of reading a file, with a repair or not.
+struct ReadingEstimate {
+    std::uint64_t faces = 0;         ///< what a file of this size usually has at most; it may have polygons of many corners
+    std::uint64_t bytes_a_face = 0;  ///< what reading takes while it goes on, the mesh included
+};
+[[nodiscard]] ReadingEstimate estimate_reading(std::span<const std::byte> file, bool repair);
 
-/// What reading takes while it goes on, the mesh included; a repair takes more.
-[[nodiscard]] std::uint64_t memory_to_read(std::uint64_t faces, bool repair);
+/// What a repair of a mesh takes, or the removal of features, while it goes on, the result included.
+[[nodiscard]] std::uint64_t memory_to_repair(std::uint64_t faces);
 
 /// What is taken while the quality of a mesh is measured, or its features are looked for, beside the mesh.
 [[nodiscard]] std::uint64_t memory_to_measure(std::uint64_t faces);

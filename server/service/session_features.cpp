@@ -22,9 +22,8 @@ Expected<std::shared_ptr<const SourceMesh>> source_of(const Session& session) {
 Expected<FeaturelessMesh> remove_within_limits(MeshingService& service, const TriangleMesh& mesh, const FeatureRemoval& removal,
                                                const StillWanted& wanted) {
     const Limits& limits = service.options().limits;
-    constexpr bool kWithRepair = true;  // its new faces are improved by what repairs are
     const std::string what = "removing features of " + std::to_string(mesh.face_count()) + " faces";
-    const Expected<MemoryBudget::Share> room = service.memory().reserve(memory_to_read(mesh.face_count(), kWithRepair), what);
+    const Expected<MemoryBudget::Share> room = service.memory().reserve(memory_to_repair(mesh.face_count()), what);
     if (!room) return room.error();
     const BoundedWork work(what, limits, wanted);
     Expected<FeaturelessMesh> made = remove_features(mesh, removal, work.context());

@@ -42,21 +42,22 @@ Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byt
     return guarded([&]() -> Expected<std::shared_ptr<const SourceMesh>> {
         std::vector<MemoryBudget::Share> shares;
         bool refused = false;
+        const ReadingEstimate estimate = estimate_reading(bytes, settings.repair.has_value());
         const auto make_room = [&](std::uint64_t faces) -> Status {
-            Expected<MemoryBudget::Share> share =
-                budget.reserve(memory_to_read(faces, settings.repair.has_value()), "reading this mesh");
+            Expected<MemoryBudget::Share> share = budget.reserve(estimate.bytes_a_face * faces, "reading this mesh");
             refused = !share;
             if (!share) return share.error();
             shares.push_back(*std::move(share));
             return Done{};
         };
-        // What a file of this size usually has; where it has more faces, as polygons of many corners do, it is read anew.
+        // What a file of this size usually has; where it has more faces or vertices, as polygons of many corners do, it is read
+        // anew.
         constexpr std::uint64_t kMore = 2;
         std::uint64_t most = 0;
         Expected<ReadResult> read = Error{};
         do {
             shares.clear();
-            most = std::min<std::uint64_t>(most == 0 ? usual_faces(bytes) : kMore * most, limits.faces);
+            most = std::min<std::uint64_t>(most == 0 ? estimate.faces : kMore * most, limits.faces);
             if (Status room = make_room(most); !room) return room.error();
             read = read_mesh(bytes, {settings.format, settings.weld, static_cast<std::uint32_t>(most), settings.unit, make_room});
         } while (!read && read.error().cause == Cause::kLimitExceeded && most < limits.faces && !refused);

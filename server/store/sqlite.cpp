@@ -1,5 +1,7 @@
 #include "store/sqlite.h"
 
+#include <sys/stat.h>
+
 #include <cerrno>
 #include <system_error>
 
@@ -70,13 +72,15 @@ Statement Database::prepare(const char* sql) {
     return {*this, statement};
 }
 
-bool Database::moved() const {
+bool Database::moved() {
     int moved = 0;
     if (sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_HAS_MOVED, &moved) == SQLITE_OK && moved != 0) return true;
-    sqlite3_file* log = nullptr;
-    sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_JOURNAL_POINTER, &log);
-    return log != nullptr && log->pMethods != nullptr &&
-           log->pMethods->xFileControl(log, SQLITE_FCNTL_HAS_MOVED, &moved) == SQLITE_OK && moved != 0;
+    // SQLite does not look after its log, which is there from the first change on, for as long as the database is open.
+    const char* const file = sqlite3_db_filename(handle_.get(), "main");
+    struct stat log {};
+    const bool there = file != nullptr && *file != '\0' && stat((std::string(file) + "-wal").c_str(), &log) == 0;
+    if (there && !log_) log_ = log.st_ino;
+    return log_ && (!there || *log_ != log.st_ino);
 }
 
 Error Database::error() const {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <sqlite3.h>
+#include <sys/types.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -33,7 +35,7 @@ public:
     [[nodiscard]] bool writable() const { return sqlite3_db_readonly(handle_.get(), "main") == 0; }
 
     /// Whether its file, or its log, is no longer in its place: what is written then is lost with the process.
-    [[nodiscard]] bool moved() const;
+    [[nodiscard]] bool moved();
 
     /// What went wrong last: LIMIT_EXCEEDED (the disk is full), CORRUPT, UNAVAILABLE.
     [[nodiscard]] Error error() const;
@@ -46,6 +48,7 @@ private:
     explicit Database(sqlite3* handle) : handle_(handle) {}
 
     std::unique_ptr<sqlite3, Close> handle_;
+    std::optional<ino_t> log_;
 };
 
 /// A prepared statement: parameters are bound from the first on, columns are read by number from 0.

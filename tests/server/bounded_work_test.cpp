@@ -69,7 +69,7 @@ std::string fan(std::uint32_t corners) {
     return file;
 }
 
-// Its size says little of its faces: a hundred thousand of 70 bytes each are 7 MB.
+// Its size says little of its faces: a hundred thousand of 150 bytes each are 15 MB.
 TEST(BoundedWorkTest, APolygonOfManyCornersIsRefusedLikeItsFaces) {
     service::ServiceOptions options = small_server();
     options.limits.memory_bytes = 4 << 20;
@@ -77,15 +77,35 @@ TEST(BoundedWorkTest, APolygonOfManyCornersIsRefusedLikeItsFaces) {
     const Reply<v1::Session> refused = create_session(server.stub(), fan(100'000));
     EXPECT_EQ(refused.status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
     EXPECT_THAT(refused.status.error_message(), HasSubstr("max_memory_bytes"));
-    const Reply<v1::Session> read = create_session(server.stub(), fan(20'000));
+    const Reply<v1::Session> read = create_session(server.stub(), fan(5'000));
     EXPECT_THAT(read.status.error_message(), ::testing::Not(HasSubstr("max_")));
+}
+
+// So are vertices that no face has.
+TEST(BoundedWorkTest, VerticesCountLikeFaces) {
+    service::ServiceOptions options = small_server();
+    options.limits.memory_bytes = 4 << 20;
+    options.limits.faces = 100'000;
+    TestServer server(options);
+    std::string file;
+    for (int i = 0; i < 290'000; ++i) file += "v 1 1 1\n";
+    file += "f 1 2 3\n";
+    const Reply<v1::Session> refused = create_session(server.stub(), file);
+    EXPECT_EQ(refused.status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+    EXPECT_THAT(refused.status.error_message(), HasSubstr("max_memory_bytes"));
+    for (int i = 0; i < 20'000; ++i) file += "v 1 1 1\n";
+    options.limits.memory_bytes = 64 << 20;
+    TestServer larger(options);
+    const Reply<v1::Session> many = create_session(larger.stub(), file);
+    EXPECT_EQ(many.status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+    EXPECT_THAT(many.status.error_message(), HasSubstr("limit of 100000, the server's max_faces"));
 }
 
 TEST(BoundedWorkTest, FilesThatMemoryHasNoRoomForAreRefused) {
     service::ServiceOptions options = small_server();
-    options.limits.memory_bytes = 3 << 20;
+    options.limits.memory_bytes = 4 << 20;
     TestServer server(options);
-    const std::string session = session_with(server.stub(), icosphere(5));  // 20,480 faces: 2.4 MB to read, 5.1 MB to write
+    const std::string session = session_with(server.stub(), icosphere(5));  // 20,480 faces: 3.8 MB to read, 5.1 MB to write
     const auto file = download(server.stub(), session);
     EXPECT_EQ(file.status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
     EXPECT_THAT(file.status.error_message(), HasSubstr("max_memory_bytes"));

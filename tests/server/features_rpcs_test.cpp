@@ -148,7 +148,7 @@ TEST(FeaturesRpcsTest, WhoDoesNotWaitChangesNothing) {
 }
 
 TEST(FeaturesRpcsTest, MemoryIsAskedForBeforeItIsTaken) {
-    constexpr std::uint64_t kMoreThanReadingTakes = 150;  // bytes a face
+    constexpr std::uint64_t kMoreThanReadingTakes = 200;  // bytes a face
     service::ServiceOptions options = small_server();
     options.limits.memory_bytes = kMoreThanReadingTakes * plate().face_count();
     TestServer server(options);

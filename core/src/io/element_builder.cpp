@@ -11,7 +11,7 @@ namespace vsplit {
 
 Status ElementBuilder::add_node(std::int64_t id, const Vec3& position, Place place) {
     if (Status valid = check_position(position, place); !valid) return valid;
-    if (mesh_.positions.size() >= kMaxVertices) return read_error(Cause::kLimitExceeded, place, "too many nodes");
+    if (Status few = check_vertex_limit(mesh_.positions.size() + 1, max_faces_, place); !few) return few;
     unit_ = place.unit;
     nodes_.push_back({id, mesh_.vertex_count()});
     node_places_.push_back(place.number);

@@ -24,7 +24,7 @@ class ElementBuilder {
 public:
     explicit ElementBuilder(std::uint32_t max_faces) : max_faces_(max_faces) {}
 
-    /// \return INVALID_COORDINATE.
+    /// \return INVALID_COORDINATE, LIMIT_EXCEEDED.
     [[nodiscard]] Status add_node(std::int64_t id, const Vec3& position, Place place);
 
     /// A flat element by its corners (mid-side nodes are the caller's to leave out); 4 and more are cut into a fan.

@@ -8,6 +8,17 @@ Status check_face_limit(std::uint64_t faces, std::uint32_t max_faces, Place plac
                       std::to_string(faces) + " faces are more than the limit of " + std::to_string(max_faces));
 }
 
+Status check_vertex_limit(std::uint64_t vertices, std::uint32_t max_faces, Place place) {
+    if (vertices > 3 * std::uint64_t{max_faces}) {
+        return read_error(Cause::kLimitExceeded, place,
+                          std::to_string(vertices) + " vertices are more than three for each face of the limit of " +
+                              std::to_string(max_faces));
+    }
+    if (vertices <= kMaxVertices) return Done{};
+    return read_error(Cause::kLimitExceeded, place,
+                      std::to_string(vertices) + " vertices are more than the limit of " + std::to_string(kMaxVertices));
+}
+
 Status check_announced(std::string_view what, std::uint64_t count, std::size_t least, std::size_t left, Place place) {
     const std::uint64_t present = left / least;
     if (count <= present) return Done{};
@@ -36,10 +47,7 @@ Error index_error(std::int64_t index, std::uint64_t count, Place place) {
 
 Status MeshBuilder::reserve(std::uint64_t vertices, std::uint64_t faces, Place place) {
     if (const Status status = check_face_limit(faces, max_faces_, place); !status) return status.error();
-    if (vertices > kMaxVertices) {
-        return read_error(Cause::kLimitExceeded, place,
-                          std::to_string(vertices) + " vertices are more than the limit of " + std::to_string(kMaxVertices));
-    }
+    if (Status few = check_vertex_limit(vertices, max_faces_, place); !few) return few;
     mesh_.positions.reserve(vertices);
     mesh_.faces.reserve(faces);
     return Done{};
@@ -47,7 +55,7 @@ Status MeshBuilder::reserve(std::uint64_t vertices, std::uint64_t faces, Place p
 
 Status MeshBuilder::add_vertex(const Vec3& position, Place place) {
     if (const Status status = check_position(position, place); !status) return status.error();
-    if (mesh_.positions.size() >= kMaxVertices) return reserve(kMaxVertices + 1, 0, place);
+    if (Status few = check_vertex_limit(mesh_.positions.size() + 1, max_faces_, place); !few) return few;
     mesh_.positions.push_back(position);
     return Done{};
 }

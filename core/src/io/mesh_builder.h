@@ -18,6 +18,10 @@ inline constexpr std::uint64_t kMaxVertices = 0xFFFFFFFE;
 /// LIMIT_EXCEEDED when `faces` are more than `max_faces`.
 [[nodiscard]] Status check_face_limit(std::uint64_t faces, std::uint32_t max_faces, Place place);
 
+/// LIMIT_EXCEEDED when `vertices` are more than three for each of `max_faces` faces, which is what a file needs that shares none;
+/// or more than kMaxVertices.
+[[nodiscard]] Status check_vertex_limit(std::uint64_t vertices, std::uint32_t max_faces, Place place);
+
 /// TRUNCATED_INPUT when `count` elements (`what`: "vertices", "faces") of at least `least` bytes do not fit into `left` bytes:
 /// what a header says is believed only as far as the file goes.
 [[nodiscard]] Status check_announced(std::string_view what, std::uint64_t count, std::size_t least, std::size_t left,
