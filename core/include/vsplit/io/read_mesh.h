@@ -16,11 +16,11 @@
 namespace vsplit {
 
 struct ReadOptions {
-    std::optional<MeshFormat> format{};    ///< told from the bytes when empty; when given, bytes of another format are an error
-    double weld = 0;                       ///< length, model units, >= 0; 0 merges exactly equal vertices. See `weld`.
+    std::optional<MeshFormat> format{};  ///< told from the bytes when empty; when given, bytes of another format are an error
+    double weld = 0;                     ///< length, model units, >= 0; 0 merges exactly equal vertices. See `weld`.
     /// LIMIT_EXCEEDED beyond, and beyond three vertices for each; checked against headers before memory is taken.
     std::uint32_t max_faces = 50'000'000;
-    std::optional<LengthUnit> unit{};      ///< of the file's lengths, where it does not say it
+    std::optional<LengthUnit> unit{};  ///< of the file's lengths, where it does not say it
     /// Asked with the number of faces before a file is put together that names the same faces at several places (3MF), as its
     /// size does not tell. An error ends the reading.
     std::function<Status(std::uint64_t faces)> make_room{};
