@@ -237,9 +237,10 @@ bool asks_for_json(const std::vector<std::string>& arguments) {
     return false;
 }
 
-/// Where a wrong value came from, which CLI11 does not tell: its words begin with the option's name.
+/// Where a wrong value came from, which CLI11 does not tell: its words have the option's name.
 std::string source_of(const std::string& told, const std::vector<std::string>& given, const std::vector<std::string>& all) {
-    const std::string option = told.substr(0, told.find(':'));
+    const std::size_t first = std::min(told.find("--"), told.size());
+    const std::string option = told.substr(first, told.find_first_of(": ", first) - first);
     const auto is_in = [&option](const std::vector<std::string>& arguments) { return value_of(arguments, option).has_value(); };
     if (!option.starts_with("--") || is_in(given)) return "";
     if (is_in(all)) return variable_of(option.substr(2)) + " of the environment: ";

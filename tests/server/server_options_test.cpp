@@ -147,6 +147,7 @@ TEST_F(ServerOptionsTest, SaysWhereWhatItRefusesCameFrom) {
     EXPECT_EQ(why("max-faces = \"abc\"\n", {}), from_file + "--max-faces: it is \"abc\"");
     EXPECT_EQ(why("", {{"VSPLITD_MAX_FACES", "abc"}}),
               "vsplitd: VSPLITD_MAX_FACES of the environment: --max-faces: it is \"abc\"");
+    EXPECT_EQ(why("", {{"VSPLITD_INSECURE", "maybe"}}).find("vsplitd: VSPLITD_INSECURE of the environment: "), 0U) << errors_;
     EXPECT_TRUE(why("", {}, {"--max-faces", "abc"}).starts_with("--max-faces: it is \"abc\"")) << errors_;
     EXPECT_TRUE(why("log-format = \"json\"\nbogus = 1\n", {}).starts_with("{\"time\"")) << errors_;
 }
