@@ -25,9 +25,8 @@ namespace vsplit::ops {
 /// (bodies, by direction) are HTTP's own, vsplit_connections_refused_total and vsplit_tls_handshakes_failed_total (by door) are
 /// of both doors' connections. vsplit_jobs_total (by method and outcome), vsplit_job_seconds, vsplit_job_wait_seconds and
 /// vsplit_job_faces_total (by method) are of methods that a worker was at. vsplit_memory_bytes and vsplit_evictions_total are of
-/// the budget of memory, vsplit_disk_bytes,
-/// vsplit_sessions_set_aside, vsplit_blobs_set_aside and vsplit_data_dir_refuses_writes of the data directory,
-/// vsplit_files_unusable of certificates and tokens. process_* are those that Prometheus' clients have.
+/// the budget of memory, vsplit_disk_bytes, vsplit_sessions_set_aside, vsplit_blobs_set_aside and vsplit_data_dir_refuses_writes
+/// of the data directory, vsplit_files_unusable of certificates and tokens. process_* are those that Prometheus' clients have.
 class Metrics final : public rpc::RpcMeter {
 public:
     Metrics();

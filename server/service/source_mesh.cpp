@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "service/guarded.h"
 #include "service/memory_use.h"
@@ -40,27 +39,21 @@ std::shared_ptr<const SourceMesh> make_source(TriangleMesh mesh, MeshReport repo
 Expected<std::shared_ptr<const SourceMesh>> read_source(std::span<const std::byte> bytes, const MeshSettings& settings,
                                                         const Limits& limits, MemoryBudget& budget, const StillWanted& wanted) {
     return guarded([&]() -> Expected<std::shared_ptr<const SourceMesh>> {
-        std::vector<MemoryBudget::Share> shares;
-        bool refused = false;
         const ReadingEstimate estimate = estimate_reading(bytes, settings.repair.has_value());
-        const auto make_room = [&](std::uint64_t faces) -> Status {
-            Expected<MemoryBudget::Share> share = budget.reserve(estimate.bytes_a_face * faces, "reading this mesh");
-            refused = !share;
-            if (!share) return share.error();
-            shares.push_back(*std::move(share));
-            return Done{};
-        };
         // What a file of this size usually has; where it has more faces or vertices, as polygons of many corners do, it is read
         // anew.
         constexpr std::uint64_t kMore = 2;
         std::uint64_t most = 0;
+        MemoryBudget::Share room;
         Expected<ReadResult> read = Error{};
         do {
-            shares.clear();
             most = std::min<std::uint64_t>(most == 0 ? estimate.faces : kMore * most, limits.faces);
-            if (Status room = make_room(most); !room) return room.error();
-            read = read_mesh(bytes, {settings.format, settings.weld, static_cast<std::uint32_t>(most), settings.unit, make_room});
-        } while (!read && read.error().cause == Cause::kLimitExceeded && most < limits.faces && !refused);
+            room.give_back();
+            Expected<MemoryBudget::Share> share = budget.reserve(estimate.bytes_a_face * most, "reading this mesh");
+            if (!share) return share.error();
+            room = *std::move(share);
+            read = read_mesh(bytes, {settings.format, settings.weld, static_cast<std::uint32_t>(most), settings.unit});
+        } while (!read && read.error().cause == Cause::kLimitExceeded && most < limits.faces);
         if (!read) return explained(read.error(), limits);
         const BoundedWork work("reading this mesh", limits, wanted);
         Expected<MeshReport> report = inspect_source(read->mesh, read->weld, settings.repair, work.context());

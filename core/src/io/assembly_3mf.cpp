@@ -169,8 +169,7 @@ private:
         if (all.vertices > kMaxVertices)
             return read_error(Cause::kLimitExceeded, place,
                               "the build comes to over " + std::to_string(kMaxVertices) + " vertices");
-        if (Status few = check_face_limit(all.faces, options_.max_faces, place); !few) return few;
-        return options_.make_room ? options_.make_room(all.faces) : Status(Done{});
+        return check_face_limit(all.faces, options_.max_faces, place);
     }
 
     Status place(std::size_t n, const std::optional<Placement3mf>& placement, const std::string& name, std::size_t line) {

@@ -19,7 +19,7 @@ struct ReadOptions;
 /// regions. Support is left out.
 ///
 /// `models`: the root first. \return LIMIT_EXCEEDED for more than `options.max_faces`, a million placed objects, or components 64
-/// deep; MALFORMED_INPUT for an object that is not defined, or not before; INVALID_COORDINATE; what `options.make_room` returns.
+/// deep; MALFORMED_INPUT for an object that is not defined, or not before; INVALID_COORDINATE.
 /// O(faces of the result).
 [[nodiscard]] Expected<TriangleMesh> assemble_3mf(const std::vector<Model3mf>& models, const ReadOptions& options);
 

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 
@@ -21,9 +20,6 @@ struct ReadOptions {
     /// LIMIT_EXCEEDED beyond, and beyond three vertices for each; checked against headers before memory is taken.
     std::uint32_t max_faces = 50'000'000;
     std::optional<LengthUnit> unit{};  ///< of the file's lengths, where it does not say it
-    /// Asked with the number of faces before a file is put together that names the same faces at several places (3MF), as its
-    /// size does not tell. An error ends the reading.
-    std::function<Status(std::uint64_t faces)> make_room{};
 };
 
 /// A mesh as it was in the file, welded. Polygons are cut into fans of triangles.
