@@ -88,7 +88,7 @@ private:
         std::copy_n(some.data(), kCopied, elements.data() + valence_ + from);
     }
     void grow() {
-        const std::size_t size = 2 * corners_.size() + 4 * kCopied;
+        const std::size_t size = 2 * (corners_.size() + 2 * std::size_t{kCopied});
         offsets_.resize(size);
         corners_.resize(size);
         vertices_.resize(size);
