@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <set>
 #include <string>
 
 #include "tests/core/meshes.h"
 #include "tests/core/random.h"
+#include "tests/temp_directory.h"
 #include "vsplit/io/write_mesh.h"
 
 namespace vsplit::test {
@@ -481,6 +483,31 @@ TEST(ReadMeshTest, RealMeshesHaveTheirCounts) {
     const fs::path malformed = directory / "dirty_assimp_malformed_index.obj";
     if (fs::exists(malformed))
         expect_error(read_mesh_file(malformed, {}), Cause::kIndexOutOfRange, "line 28: a face names vertex 0");
+}
+
+TEST(ReadMeshTest, ANameTellsTheFormatWhereBytesDoNot) {
+    const TempDirectory directory;
+    const auto write = [&](const char* name, const std::string& text) {
+        std::ofstream(directory.path() / name) << text;
+        return directory.path() / name;
+    };
+    // No line of the first MiB says what this is.
+    std::string cards;
+    while (cards.size() < (1 << 20)) cards += "FORCE,1,1,0,1.,0.,0.,1.\n";
+    cards += "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nCTRIA3,1,1,1,2,3\n";
+    expect_error(read_mesh_file(write("a.txt", cards), {}), Cause::kUnknownFormat, "of no format that is read");
+    const Expected<ReadResult> named = read_mesh_file(write("a.bdf", cards), {});
+    ASSERT_TRUE(named) << named.error().message;
+    EXPECT_EQ(named->format, MeshFormat::kBdf);
+    expect_error(read_mesh_file(write("b.nas", "EIGRL,1\n"), {}), Cause::kEmptyInput, "but no face; it was read as bdf");
+}
+
+TEST(ReadMeshTest, OddBytesInATextAreErrorsOfTheText) {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n# " + std::string(100, 'c') + "\nf 1 2 3\n";
+    text[text.find('1')] = '\0';
+    expect_error(read_mesh(std::as_bytes(std::span(text)), {}), Cause::kMalformedInput, "line 2: expected");
+    const std::string stl = write_mesh(cube(), MeshFormat::kStlBinary).substr(0, 300);
+    expect_error(read_mesh(std::as_bytes(std::span(stl)), {}), Cause::kTruncatedInput, "the bytes were taken for a binary STL");
 }
 
 TEST(ReadMeshTest, OwnMeshesAreRead) {

@@ -234,8 +234,13 @@ TEST(SolverFormatsTest, InstancesAreBounded) {
     text.replace(text.find("*NODE"), 5, "*HEAT");
     const Expected<ReadResult> no_nodes = read(text, {.format = {}, .weld = 0, .max_faces = 10'000});
     ASSERT_FALSE(no_nodes);
-    EXPECT_NE(no_nodes.error().message.find("line 1: the instances of the file's parts come to more text"), std::string::npos)
+    EXPECT_NE(no_nodes.error().message.find("line 1: the instances of the file's parts come to more text and sets"),
+              std::string::npos)
         << no_nodes.error().message;
+    text.replace(text.find("*HEAT"), 5, "*ELSET, ELSET=s");
+    const Expected<ReadResult> sets = read(text, {.format = {}, .weld = 0, .max_faces = 10'000});
+    ASSERT_FALSE(sets);
+    EXPECT_EQ(sets.error().cause, Cause::kLimitExceeded) << sets.error().message;
 }
 
 TEST(SolverFormatsTest, BulkDataOfEveryCardWithAFace) {

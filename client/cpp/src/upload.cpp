@@ -16,6 +16,7 @@ namespace vsplit::client {
 namespace {
 
 constexpr std::size_t kPartBytes = std::size_t{256} * 1024;
+constexpr std::size_t kTellingBytes = std::size_t{2} << 20;  // as many as may tell a format
 
 /// Fills `part` with the next bytes; leaves it empty at the end.
 using NextPart = std::function<Status(std::string& part)>;
@@ -28,6 +29,14 @@ using FilePointer = std::unique_ptr<std::FILE, FileCloser>;
 Error refused(const char* what, const std::filesystem::path& file, int reason) {
     return {reason == ENOENT ? Cause::kNotFound : Cause::kFileAccess,
             std::string("cannot ") + what + " '" + file.string() + "': " + std::generic_category().message(reason), ""};
+}
+
+/// The name tells the format where the bytes do not, as it does for who reads the file here.
+std::optional<MeshFormat> format_of(std::FILE* file, const std::filesystem::path& name) {
+    std::string begin(kTellingBytes, '\0');
+    begin.resize(std::fread(begin.data(), 1, begin.size(), file));
+    std::rewind(file);
+    return format_where_bytes_do_not_tell(std::as_bytes(std::span(begin)), name.filename().string());
 }
 
 v1::UploadMeshRequest first_message(const std::string& session, const UploadOptions& options, std::optional<std::uint64_t> size) {
@@ -89,13 +98,15 @@ Expected<v1::Session> upload_file(const UploadTarget& target, const std::filesys
     std::error_code error;
     if (std::filesystem::is_regular_file(file, error)) size = std::filesystem::file_size(file, error);
     if (error) return refused("read", file, error.value());
+    UploadOptions told = options;
+    if (size && !told.format) told.format = format_of(handle.get(), file);
     const NextPart next = [&](std::string& part) -> Status {
         part.resize(kPartBytes);
         part.resize(std::fread(part.data(), 1, part.size(), handle.get()));
         if (std::ferror(handle.get()) != 0) return refused("read", file, errno);
         return Done{};
     };
-    return upload(target, first_message(target.session, options, size), options, call, next);
+    return upload(target, first_message(target.session, told, size), options, call, next);
 }
 
 Expected<v1::Session> upload_bytes(const UploadTarget& target, std::span<const std::byte> bytes, const UploadOptions& options,

@@ -47,9 +47,11 @@ public:
     }
 
 private:
-    // Of text that instances repeat, what 3MF may unpack: a small file is not to make much work.
+    // As much as 3MF may unpack: a small file is not to make much work.
     static constexpr std::uint64_t kPartBytes = 1 << 20;
     static constexpr std::uint64_t kPartBytesAFace = 256;
+    static constexpr std::uint64_t kSetBytes = 256;
+    static constexpr std::uint64_t kMemberBytes = 64;
 
     /// To the end, or to the keyword `last`.
     Status read_lines(std::string_view last) {
@@ -105,6 +107,7 @@ private:
         }
         element_ = *element;
         section_ = element_.nodes == 0 ? Section::kSkipped : Section::kElements;
+        if (Status few = charge_set(elset_.empty() ? 0 : kSetBytes); !few) return few;
         if (element_.is_face()) return Done{};
         if (passed_over_.empty()) passed_over_line_ = keyword_line_;
         if (passed_over_.empty()) passed_over_ = type_;
@@ -118,6 +121,7 @@ private:
         section_ = section;
         member_scope_ = scope_;
         if (set_.empty()) return malformed("a set needs a name: " + std::string(parameter) + "=...");
+        if (Status few = charge_set(kSetBytes); !few) return few;
         const std::string instance = keyword_.value("INSTANCE");
         if (instance.empty()) return Done{};
         const std::optional<std::size_t> scope = assembly_.find_instance(instance);
@@ -184,15 +188,23 @@ private:
         return words.empty() ? Status(Done{}) : malformed(std::string(words));
     }
 
+    /// Takes from what instances may come to: their text, and about what their sets take.
+    Status charge(std::uint64_t bytes, std::size_t line) {
+        if (bytes > part_bytes_left_) {
+            return read_error(Cause::kLimitExceeded, at_line(line),
+                              "the instances of the file's parts come to more text and sets than its limit of faces allows");
+        }
+        part_bytes_left_ -= bytes;
+        return Done{};
+    }
+
+    [[nodiscard]] Status charge_set(std::uint64_t bytes) { return scope_ == 0 ? Status(Done{}) : charge(bytes, keyword_line_); }
+
     /// Once the lines that say where have been read: reads the part that is to be there.
     Status place_instance() { return part_ == nullptr ? Status(Done{}) : read_part(*std::exchange(part_, nullptr)); }
 
     Status read_part(const InpAssembly::Part& part) {
-        if (part.bytes > part_bytes_left_) {
-            return read_error(Cause::kLimitExceeded, at_line(part.line),
-                              "the instances of the file's parts come to more text than its limit of faces allows");
-        }
-        part_bytes_left_ -= part.bytes;
+        if (Status small = charge(part.bytes, part.line); !small) return small;
         const TextLines here = std::exchange(lines_, part.lines);
         section_ = Section::kSkipped;
         const Status read = read_lines("*ENDPART");
@@ -299,6 +311,7 @@ private:
             return malformed("expected a last element from the first, " + std::to_string(*first) + ", on, found " +
                              std::to_string(*last));
         }
+        if (Status few = charge_set(kMemberBytes); !few) return few;
         builder_.add_to_set(assembly_.set_name(scope_, set_), assembly_.number(member_scope_, *first),
                             assembly_.number(member_scope_, *last), step, place());
         return Done{};
@@ -319,6 +332,7 @@ private:
 
     Status read_member(std::string_view field) {
         if (field.empty()) return malformed("expected an element's number or the name of a set, found nothing");
+        if (Status few = charge_set(kMemberBytes); !few) return few;
         const auto [scope, name] = assembly_.resolve(member_scope_, field);
         const std::string set = assembly_.set_name(scope_, set_);
         if (!parse_integer(name)) {
