@@ -207,7 +207,7 @@ private:
         if (Status small = charge(part.bytes, part.line); !small) return small;
         const TextLines here = std::exchange(lines_, part.lines);
         section_ = Section::kSkipped;
-        const Status read = read_lines("*ENDPART");
+        Status read = read_lines("*ENDPART");
         if (read) lines_ = here;
         section_ = Section::kSkipped;
         return read;
