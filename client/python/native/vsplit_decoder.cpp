@@ -199,9 +199,7 @@ void vsplit_decoder_copy_regions(const vsplit_decoder* decoder, std::uint32_t* i
     std::copy(decoder->visible.regions.begin(), decoder->visible.regions.end(), ids);
 }
 
-std::uint32_t vsplit_decoder_sets(const vsplit_decoder* decoder) {
-    return static_cast<std::uint32_t>(decoder->held.sets.size());
-}
+std::uint32_t vsplit_decoder_sets(const vsplit_decoder* decoder) { return static_cast<std::uint32_t>(decoder->held.sets.size()); }
 const char* vsplit_decoder_set_name(const vsplit_decoder* decoder, std::uint32_t set) {
     return decoder->held.sets[set].name.c_str();
 }

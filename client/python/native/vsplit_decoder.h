@@ -34,8 +34,8 @@ int vsplit_decoder_load(vsplit_decoder* decoder, const uint8_t* bytes, size_t si
 int vsplit_decoder_append(vsplit_decoder* decoder, uint32_t first, uint32_t count, uint32_t encoding, uint32_t crc32c,
                           const uint8_t* payload, size_t size);
 
-/// Regions: an id a face of the finest resolution, faces that touch a ghost (0) included, after the base mesh has begun; in the place
-/// of those before. Then sets, each a name (UTF-8) for some regions.
+/// Regions: an id a face of the finest resolution, faces that touch a ghost (0) included, after the base mesh has begun; in the
+/// place of those before. Then sets, each a name (UTF-8) for some regions.
 int vsplit_decoder_set_regions(vsplit_decoder* decoder, const uint32_t* ids, uint32_t faces);
 int vsplit_decoder_add_set(vsplit_decoder* decoder, const char* name, const uint32_t* regions, uint32_t count);
 
@@ -62,7 +62,8 @@ const char* vsplit_decoder_set_name(const vsplit_decoder* decoder, uint32_t set)
 uint32_t vsplit_decoder_set_size(const vsplit_decoder* decoder, uint32_t set);
 void vsplit_decoder_copy_set(const vsplit_decoder* decoder, uint32_t set, uint32_t* regions);
 
-/// Of the lengths of a file: "um", "mm", "cm", "m", "in", "ft", or "" where that is not known; "" for a stream, which says it elsewhere.
+/// Of the lengths of a file: "um", "mm", "cm", "m", "in", "ft", or "" where that is not known; "" for a stream, which says it
+/// elsewhere.
 const char* vsplit_decoder_unit(const vsplit_decoder* decoder);
 
 #ifdef __cplusplus

@@ -89,7 +89,8 @@ class Client:
     def delete(self, session):
         self._stub.DeleteSession(v1.DeleteSessionRequest(session=session))
 
-    def improve(self, session, *, source=None, source_faces=0, encoding="float64", bits=0, on_progress=None, timeout=None, **options):
+    def improve(self, session, *, source=None, source_faces=0, encoding="float64", bits=0, on_progress=None, timeout=None,
+                **options):
         """A Mesh at the resolution it was made for.
 
         `options`: the fields of ImproveOptions; `regions`, `marked_edges` and `sizing` take arrays, and a dict such as
@@ -100,7 +101,8 @@ class Client:
         request = v1.ImproveRequest(session=session, options=message_of(v1.ImproveOptions, options))
         return self._run(self._stub.Improve, request, (source, source_faces), encoding, bits, on_progress, timeout)
 
-    def control(self, session, *, source=None, source_faces=0, encoding="float64", bits=0, on_progress=None, timeout=None, **options):
+    def control(self, session, *, source=None, source_faces=0, encoding="float64", bits=0, on_progress=None, timeout=None,
+                **options):
         """As improve, with the fields of ControlOptions."""
         request = v1.ControlRequest(session=session, options=message_of(v1.ControlOptions, options))
         return self._run(self._stub.Control, request, (source, source_faces), encoding, bits, on_progress, timeout)
@@ -122,7 +124,8 @@ class Client:
     def download(self, session, representation="", faces=0, format="stl", unit=None, order=None):
         """A MeshFile: the bytes of a mesh file, with what the server says of it; its lengths in `unit`, by default the session's.
 
-        `order`: 1, triangles of three nodes, or 2, of six, the middle ones on the upload's surface ("msh", "inp", "bdf", "vtk", "vtu").
+        `order`: 1, triangles of three nodes, or 2, of six, the middle ones on the upload's surface ("msh", "inp", "bdf", "vtk" and
+        "vtu").
         """
         representation, faces = _place_of(representation, faces)
         fields = {"representation": representation, "faces": faces, "format": format, "unit": unit, "order": order}
@@ -132,7 +135,8 @@ class Client:
     def quality(self, session, representation="", faces=0, *, worst=0, profile=None):
         """A Quality message: counts, stretch with its histogram, sizes, and the worst faces, `worst` of them, 0 for 20.
 
-        `profile`: "stretch-02", "verdict" or "optistruct", by whose limits faces pass, are warned of or fail (`profile` of the answer).
+        `profile`: "stretch-02", "verdict" or "optistruct", by whose limits faces pass, are warned of or fail (`profile` of the
+        answer).
         """
         representation, faces = _place_of(representation, faces)
         fields = {"representation": representation, "faces": faces, "worst": worst, "profile": profile}

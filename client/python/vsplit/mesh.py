@@ -35,21 +35,25 @@ class _Shown:
 
     def sets_at(self, faces=None):
         """The triangles of at(faces) that are in each set: a dict of ascending numbers (k,) by name."""
-        regions = self.regions_at(faces)
-        return {name: np.flatnonzero(np.isin(regions, members)) for name, members in self.sets.items()}
+        self._show(faces)
+        return self._shown_sets()
 
     def meshio_at(self, faces=None):
         """Arguments of meshio.Mesh, 7 of them: points, cells, and with regions cell_data "region" and cell_sets."""
         points, triangles = self.at(faces)
         regions = self._decoder.shown_regions()
         data = {} if regions is None else {"region": [regions]}
-        sets = {name: [members] for name, members in self.sets_at(faces).items()}
+        sets = {name: [members] for name, members in self._shown_sets().items()}
         return points, [("triangle", triangles)], None, data, None, None, sets
 
     def pyvista_at(self, faces=None):
         """Arguments of pyvista.PolyData, whose cell_data["region"] takes regions_at(faces)."""
         points, triangles = self.at(faces)
         return points, np.hstack([np.full((len(triangles), 1), 3, np.int64), triangles.astype(np.int64)]).ravel()
+
+    def _shown_sets(self):
+        regions = self._decoder.shown_regions()
+        return {name: np.flatnonzero(np.isin(regions, members)) for name, members in self.sets.items()}
 
 
 class StoredMesh(_Shown):
@@ -77,8 +81,8 @@ def load(path):
 class Mesh(_Shown):
     """Made by Client.improve, control and open; fetches what is missing for a resolution.
 
-    `representation`: the vsplit.v1.Representation at the resolution that it was made for. `max_error`: no coordinate of the stream is
-    further from the exact one.
+    `representation`: the vsplit.v1.Representation at the resolution that it was made for. `max_error`: no coordinate of the stream
+    is further from the exact one.
     """
 
     def __init__(self, client, session, layout):

@@ -4,8 +4,8 @@ from .decoder import CorruptError
 
 
 class MeshFile(bytes):
-    """The bytes of a file, and what the server says of it: `name`, `content_type`, `faces`, `nodes_on_chord` (of order 2: edges whose
-    node stays in the middle of the chord), `digest` (SHA-256, hexadecimal)."""
+    """The bytes of a file, and what the server says of it: `name`, `content_type`, `faces`, `nodes_on_chord` (of order 2: edges
+    whose node stays in the middle of the chord), `digest` (SHA-256, hexadecimal)."""
 
     @classmethod
     def of_chunks(cls, chunks):

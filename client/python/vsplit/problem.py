@@ -10,8 +10,8 @@ Problem = collections.namedtuple("Problem", "cause message field retry_after")
 def problem_of(error):
     """A Problem of the grpc.RpcError of a call.
 
-    `cause`: e.g. "NON_MANIFOLD"; the name of the gRPC code where the server gave none, as when it was not reached. `field`: the option at
-    fault, or "". `retry_after`: seconds after which the same request may well succeed, or None.
+    `cause`: e.g. "NON_MANIFOLD"; the name of the gRPC code where the server gave none, as when it was not reached. `field`: the
+    option at fault, or "". `retry_after`: seconds after which the same request may well succeed, or None.
     """
     cause, field, retry_after = error.code().name, "", None
     for key, value in error.trailing_metadata() or ():
