@@ -9,8 +9,8 @@
 #include "io/ply_header.h"
 #include "io/read_error.h"
 #include "io/readers.h"
+#include "io/region_value.h"
 #include "io/text_lines.h"
-#include "io/vtk_cells.h"
 
 namespace vsplit {
 namespace {
