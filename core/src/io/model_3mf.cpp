@@ -125,7 +125,9 @@ private:
     Status end_object() {
         if (!object_) return Done{};
         room_.faces -= builder_.face_count();
-        object_->mesh = builder_.take();
+        Expected<TriangleMesh> mesh = builder_.take();
+        if (!mesh) return mesh.error();
+        object_->mesh = *std::move(mesh);
         for (const TriangleSet3mf& set : object_->sets) {
             for (const auto& range : set.ranges) {
                 if (range.second < object_->mesh.face_count()) continue;

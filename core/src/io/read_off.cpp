@@ -11,7 +11,7 @@
 namespace vsplit {
 namespace {
 
-/// Reads an OFF: `OFF`, the counts, a line a vertex, a line a face. What follows a position (normals, colours) or a face's
+/// Reads an OFF: `OFF`, which may be left out, the counts, a line a vertex, a line a face. What follows a position (normals, colours) or a face's
 /// indices (a colour) on its line is skipped.
 class OffText {
 public:
@@ -34,7 +34,12 @@ private:
 
     Status read_keyword() {
         if (!next_line()) return truncated("'OFF'");
+        const std::string_view whole = line_;
         const std::string_view keyword = next_word(line_);
+        if (parse_integer(keyword)) {
+            line_ = whole;  // the counts
+            return Done{};
+        }
         if (!is_off_keyword(keyword)) return malformed("expected 'OFF', " + found(keyword));
         std::string_view rest = line_;
         if (next_word(rest) != "BINARY") return Done{};
