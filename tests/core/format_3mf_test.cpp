@@ -325,7 +325,8 @@ TEST(Format3mfTest, TheCoreMayHaveAPrefix) {
         prefixed += "m:";
     }
     prefixed.replace(prefixed.find("xmlns="), 6, "xmlns:m=");
-    EXPECT_EQ(must_read(archive_of({{"3D/3dmodel.model", prefixed}})).mesh, must_read(file(object(1, ""), "<item objectid=\"1\"/>")).mesh);
+    EXPECT_EQ(must_read(archive_of({{"3D/3dmodel.model", prefixed}})).mesh,
+              must_read(file(object(1, ""), "<item objectid=\"1\"/>")).mesh);
     prefixed.replace(prefixed.find("core/2015"), 9, "gone/2015");
     EXPECT_EQ(error_of(archive_of({{"3D/3dmodel.model", prefixed}})).cause, Cause::kUnknownFormat);
 }
@@ -335,8 +336,9 @@ TEST(Format3mfTest, XmlThatIsNotWellFormedIsRefused) {
     text.replace(text.find("</vertices>"), 11, "</vertexes>");
     std::erase(text, '\n');
     const std::string column = std::to_string(text.find("</vertexes>") + 1);
-    EXPECT_THAT(error_of(archive_of({{"3D/3dmodel.model", text}})).message,
-                HasSubstr("line 1, column " + column + ": expected '</vertices>', the end of the tag of line 1, found '</vertexes>'"));
+    EXPECT_THAT(
+        error_of(archive_of({{"3D/3dmodel.model", text}})).message,
+        HasSubstr("line 1, column " + column + ": expected '</vertices>', the end of the tag of line 1, found '</vertexes>'"));
 }
 
 TEST(Format3mfTest, BombsAreRefusedBeforeMemoryIsTaken) {

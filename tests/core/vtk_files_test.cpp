@@ -55,7 +55,8 @@ TEST(VtkFilesTest, DataBesideTheRegionsIsReadOver) {
           "CELL_DATA 2\nSCALARS s float 1\nLOOKUP_TABLE mine\n1 2\nLOOKUP_TABLE mine 2\n1 0 0 1 0 0 1 1\n" + region,
           "CELL_DATA 2\nCOLOR_SCALARS c 3\n1 0 0 0 0.5 0\n" + region,
           "CELL_DATA 2\nTEXTURE_COORDINATES c 2 float\n1 0 0 0.5\n" + region,
-          points + "FIELD f 1\nregion 1 4 int\n9 9 9 9\nCELL_DATA 2\nFIELD f 2\nn 3 2 float\n1 2 3 4 5 6\nregion 1 2 int\n4 5\n"}) {
+          points +
+              "FIELD f 1\nregion 1 4 int\n9 9 9 9\nCELL_DATA 2\nFIELD f 2\nn 3 2 float\n1 2 3 4 5 6\nregion 1 2 int\n4 5\n"}) {
         EXPECT_EQ(must_read(kTwo + data).regions, kRegions) << data;
     }
     expect_error(kTwo + "CELL_DATA 2\nSCALAR region int 1\n", Cause::kMalformedInput,
@@ -116,7 +117,8 @@ std::string vtu(const std::string& counts, const std::string& points, const std:
            "</DataArray></Points>\n<Cells><DataArray type=\"Int32\" Name=\"connectivity\">" + connectivity +
            "</DataArray>\n<DataArray type=\"Int32\" Name=\"offsets\">" + offsets +
            "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\">5 5</DataArray></Cells>\n"
-           "<CellData><DataArray type=\"Int32\" Name=\"region\">4 5</DataArray></CellData></Piece></UnstructuredGrid></VTKFile>\n";
+           "<CellData><DataArray type=\"Int32\" Name=\"region\">4 "
+           "5</DataArray></CellData></Piece></UnstructuredGrid></VTKFile>\n";
 }
 
 const std::string kCounts = "NumberOfPoints=\"4\" NumberOfCells=\"2\"";

@@ -176,7 +176,8 @@ TEST(XmlStreamTest, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(tags_of(std::string("\xFF\xFE<\0a\0", 6)).back(), HasSubstr("UTF-16"));
     EXPECT_THAT(tags_of("<a b=\"" + std::string(3'000'000, 'x') + "\"/>").back(), HasSubstr("over 1048576 bytes"));
     EXPECT_THAT(tags_of("<a>" + std::string(70'000, ' ') + "\n" + std::string(300, ' ') + "<b=/></a>").back(),
-                HasSubstr("line 2, column 301: ")) << "long lines have columns";
+                HasSubstr("line 2, column 301: "))
+        << "long lines have columns";
 }
 
 TEST(XmlStreamTest, TagsMustNestAndBeWhole) {

@@ -139,9 +139,8 @@ std::vector<Triangle> cut_polygon(std::span<const Vec3> corners) {
     if (fan.size() == 1) return fan;
     const std::vector<Vec2> points = flattened(corners);
     const double least = least_area(points);
-    const bool folds = std::any_of(fan.begin(), fan.end(), [&](const Triangle& t) {
-        return turn(points[t[0]], points[t[1]], points[t[2]]) < -least;
-    });
+    const bool folds = std::any_of(fan.begin(), fan.end(),
+                                   [&](const Triangle& t) { return turn(points[t[0]], points[t[1]], points[t[2]]) < -least; });
     return folds ? EarCutter(points, least).run() : fan;
 }
 

@@ -21,8 +21,8 @@ public:
     /// From face `first_face` on faces are in the groups `names`, which may have been given before; empty names are none.
     void begin(std::span<const std::string_view> names, std::uint32_t first_face);
 
-    /// Faces that are in the same groups become a region, numbered from 1 in order of their first; 0 are those in none. Each group
-    /// that has faces becomes a set. Nothing where all faces are in none.
+    /// Faces that are in the same groups become a region, numbered from 1 in order of their first; 0 are those in none. Each
+    /// group that has faces becomes a set. Nothing where all faces are in none.
     void give_to(TriangleMesh& mesh, Lone lone) const;
 
 private:

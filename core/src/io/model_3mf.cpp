@@ -165,8 +165,7 @@ private:
             const std::string_view text = tag.attribute(kCorners[corner]);
             const std::optional<std::int64_t> index = parse_integer(text);
             if (!index) return attribute_error(tag, kCorners[corner], text, "the number of a vertex");
-            if (*index < 0 || *index >= builder_.vertex_count())
-                return index_error(*index, builder_.vertex_count(), tag.place);
+            if (*index < 0 || *index >= builder_.vertex_count()) return index_error(*index, builder_.vertex_count(), tag.place);
             corners[corner] = static_cast<std::uint32_t>(*index);
         }
         return builder_.add_polygon(corners, tag.place);

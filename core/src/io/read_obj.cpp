@@ -16,9 +16,9 @@ namespace {
 /// Keywords of what makes no face, or is only told of the faces: Wavefront's format 3.0 and its older statements. Those of curves
 /// and free-form surfaces count where a `surf` uses them.
 constexpr auto kPassedOver = std::to_array<std::string_view>(
-    {"vn",    "vt",       "vp",       "o",          "s",         "l",     "p",     "mg",     "mtllib", "usemtl", "usemap", "maplib",
-     "lod",   "bevel",    "c_interp", "d_interp",   "shadow_obj", "trace_obj", "ctech", "stech",  "cstype", "deg",    "bmat",   "step",
-     "parm",  "trim",     "hole",     "scrv",       "sp",        "end",   "con",   "curv",   "curv2",  "res",    "cdc",    "cdp"});
+    {"vn",   "vt",    "vp",       "o",        "s",          "l",         "p",     "mg",    "mtllib", "usemtl", "usemap", "maplib",
+     "lod",  "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech", "stech", "cstype", "deg",    "bmat",   "step",
+     "parm", "trim",  "hole",     "scrv",     "sp",         "end",       "con",   "curv",  "curv2",  "res",    "cdc",    "cdp"});
 
 /// Keywords of what makes surface that is not read.
 constexpr auto kNotRead = std::to_array<std::string_view>({"surf", "call", "csh", "bsp", "bzp"});
@@ -68,8 +68,9 @@ private:
         const auto is_one_of = [&](const auto& words) { return std::find(words.begin(), words.end(), keyword) != words.end(); };
         if (keyword.empty() || keyword.front() == '#' || is_one_of(kPassedOver)) return Done{};
         if (is_one_of(kNotRead)) {
-            return read_error(Cause::kUnsupported, at_line(number_),
-                              quoted(keyword) + " is not read; faces ('f') are: convert free-form surfaces and other files to them");
+            return read_error(
+                Cause::kUnsupported, at_line(number_),
+                quoted(keyword) + " is not read; faces ('f') are: convert free-form surfaces and other files to them");
         }
         return malformed("expected a keyword such as 'v' or 'f', " + found(keyword));
     }

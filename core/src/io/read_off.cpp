@@ -11,8 +11,8 @@
 namespace vsplit {
 namespace {
 
-/// Reads an OFF: `OFF`, which may be left out, the counts, a line a vertex, a line a face. What follows a position (normals, colours) or a face's
-/// indices (a colour) on its line is skipped.
+/// Reads an OFF: `OFF`, which may be left out, the counts, a line a vertex, a line a face. What follows a position (normals,
+/// colours) or a face's indices (a colour) on its line is skipped.
 class OffText {
 public:
     OffText(std::string_view text, std::uint32_t max_faces) : lines_(text), builder_(max_faces) {}

@@ -158,7 +158,8 @@ private:
                                "expected the first offset to be 0, found " + std::to_string(offsets.values[0]));
         }
         const auto ends = std::span(offsets.values).subspan(offsets.values.empty() ? 0 : 1);
-        in_.keep(cells_.add_ends(ends, [&](std::size_t i) { return offsets.place_of(i + 1); }, points, type));
+        in_.keep(cells_.add_ends(
+            ends, [&](std::size_t i) { return offsets.place_of(i + 1); }, points, type));
     }
 
     /// Whether the word OFFSETS follows: the only sign of it, as versions are often wrong.

@@ -105,7 +105,7 @@ private:
     Status take_file(const XmlTag& tag) {
         if (tag.attribute("type") != "UnstructuredGrid") {
             return read_error(Cause::kUnsupported, tag.place,
-                         "a file of type " + quoted(tag.attribute("type")) + " is not read; UnstructuredGrid is");
+                              "a file of type " + quoted(tag.attribute("type")) + " is not read; UnstructuredGrid is");
         }
         if (tag.attribute("byte_order") == "BigEndian") encoding_.order = std::endian::big;
         if (tag.attribute("header_type") == "UInt64") encoding_.header = 8;

@@ -81,8 +81,9 @@ Status VtkCells::add_runs(const PlacedNumbers<std::int64_t>& runs, std::uint64_t
         at += static_cast<std::size_t>(count) + 1;
     }
     if (cells_.size() - first == cells) return Done{};
-    return read_error(Cause::kMalformedInput, runs.place_of(numbers.empty() ? 0 : numbers.size() - 1),
-                      std::to_string(cells) + " cells are announced, but the numbers make " + std::to_string(cells_.size() - first));
+    return read_error(
+        Cause::kMalformedInput, runs.place_of(numbers.empty() ? 0 : numbers.size() - 1),
+        std::to_string(cells) + " cells are announced, but the numbers make " + std::to_string(cells_.size() - first));
 }
 
 Status VtkCells::add_ends(std::span<const std::int64_t> ends, const PlaceOf& place_of_end,
@@ -117,9 +118,9 @@ Status VtkCells::set_regions(const PlacedNumbers<double>& values) {
         regions_.push_back(*region);
     }
     if (values.values.size() == before_ + cells_.size()) return Done{};
-    return read_error(Cause::kMalformedInput, values.place_of(0),
-                      std::to_string(values.values.size()) + " regions are given for " +
-                          std::to_string(before_ + cells_.size()) + " cells");
+    return read_error(
+        Cause::kMalformedInput, values.place_of(0),
+        std::to_string(values.values.size()) + " regions are given for " + std::to_string(before_ + cells_.size()) + " cells");
 }
 
 const VtkCells::Array& VtkCells::array_of(std::size_t cell) const {
@@ -192,9 +193,9 @@ Status VtkCells::add_cell(std::size_t cell) {
 
 Expected<TriangleMesh> VtkCells::take() {
     if (!types_.values.empty() && types_.values.size() != cells_.size()) {
-        return read_error(Cause::kMalformedInput, types_.place_of(0),
-                          std::to_string(types_.values.size()) + " types are given for " + std::to_string(cells_.size()) +
-                              " cells");
+        return read_error(
+            Cause::kMalformedInput, types_.place_of(0),
+            std::to_string(types_.values.size()) + " types are given for " + std::to_string(cells_.size()) + " cells");
     }
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
         if (Status added = add_cell(cell); !added) return added.error();

@@ -17,9 +17,9 @@ class XmlStream {
 public:
     explicit XmlStream(ZipStream bytes) : bytes_(std::move(bytes)) {}
 
-    /// The next tag, valid until the next call; empty at the end of the file. \return what ZipStream, XmlTags and XmlNesting return;
-    /// UNSUPPORTED for text of 16 bits; MALFORMED_INPUT for a document type (which formats on zip archives forbid) and for a tag
-    /// or comment of over a mebibyte.
+    /// The next tag, valid until the next call; empty at the end of the file. \return what ZipStream, XmlTags and XmlNesting
+    /// return; UNSUPPORTED for text of 16 bits; MALFORMED_INPUT for a document type (which formats on zip archives forbid) and
+    /// for a tag or comment of over a mebibyte.
     [[nodiscard]] Expected<std::optional<XmlTag>> next();
 
 private:

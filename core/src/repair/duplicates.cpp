@@ -32,7 +32,9 @@ enum class Fate : unsigned char { kKept, kDropped, kCancelled };
 void decide(const SortedFace* first, const SortedFace* last, std::vector<Fate>& fate, std::vector<std::uint32_t>& opposite) {
     const auto odd = std::count_if(first, last, [](const SortedFace& f) { return f.odd; });
     const auto even = (last - first) - odd;
-    const auto find = [&](bool is_odd) { return std::find_if(first, last, [&](const SortedFace& f) { return f.odd == is_odd; }); };
+    const auto find = [&](bool is_odd) {
+        return std::find_if(first, last, [&](const SortedFace& f) { return f.odd == is_odd; });
+    };
     const SortedFace* kept = odd == even ? first : find(odd > even);
     for (const SortedFace* f = first; f != last; ++f) fate[f->face] = Fate::kDropped;
     fate[kept->face] = odd == even ? Fate::kCancelled : Fate::kKept;
