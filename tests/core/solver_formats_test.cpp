@@ -259,7 +259,8 @@ TEST(SolverFormatsTest, VtkFilesInTheirManyLayouts) {
     const std::string grid = head + "UNSTRUCTURED_GRID\n" + points;
     for (const std::string& text :
          {poly + "POLYGONS 2 8\n3 0 1 2\n3 1 3 2\n",
-          poly + "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2 3 1 3 2\nPOINT_DATA 4\nSCALARS a float\n",
+          poly +
+              "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2 3 1 3 2\nPOINT_DATA 4\nSCALARS a float\nLOOKUP_TABLE default\n1 2 3 4\n",
           grid + "CELLS 3 11\n2 0 1\n3 0 1 2\n3 1 3 2\nCELL_TYPES 3\n3 5 5\n",
           grid + "METADATA\nINFORMATION 0\n\nCELLS 3 6\nOFFSETS vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 1 3 "
                  "2\nCELL_TYPES 2\n5\n5\n"}) {
@@ -333,12 +334,14 @@ TEST(SolverFormatsTest, BrokenFilesAreErrorsThatSayWhere) {
         {msh + "$Elements\n1\n1 2 2 0 0 1 2", Cause::kTruncatedInput, "line 12: the file ends where a node of an element"},
         {msh + "$Unknown\n1 2 3\n", Cause::kTruncatedInput, "the file ends before '$EndUnknown'"},
         {msh + "Elements\n", Cause::kMalformedInput, "line 10: expected the name of a section, found 'Elements'"},
-        {vtk + "CELLS 1 4\n3 0 1 5\nCELL_TYPES 1\n5\n", Cause::kIndexOutOfRange, "element 0 names node 5"},
+        {vtk + "CELLS 1 4\n3 0 1 5\nCELL_TYPES 1\n5\n", Cause::kIndexOutOfRange,
+         "line 8: cell 0 names point 5; there are 0 to 2"},
         {vtk + "CELLS 1 4\n4 0 1 2\nCELL_TYPES 1\n5\n", Cause::kMalformedInput,
          "line 8: cell 0 is to have 4 points, but 3 numbers follow"},
         {vtk + "CELLS 2 4\n3 0 1 2\nCELL_TYPES 1\n5\n", Cause::kMalformedInput,
          "line 8: 2 cells are announced, but the numbers make 1"},
-        {vtk + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n99\n", Cause::kUnsupported, "cell 0 is of type 99"},
+        {vtk + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n99\n", Cause::kUnsupported, "line 10: cell 0 is of type 99"},
+        {vtk + "CELLS 1 4\n3 0 1 2\n", Cause::kTruncatedInput, "the file ends before CELL_TYPES"},
         {vtk + "CELLS 1 5\n4 0 1 2 2\nCELL_TYPES 1\n10\n", Cause::kUnsupported, "1 solid elements"},
         {vtk + "CELLS 1 4\n3 0 one 2\n", Cause::kMalformedInput, "line 8: expected a point of a cell, found 'one'"},
         {"# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n", Cause::kUnsupported,
