@@ -95,6 +95,59 @@ TEST(MeshFormatTest, TextIsToldByItsFirstWord) {
     EXPECT_EQ(detect("ply\r\ncomment a\r\nformat binary_big_endian 1.0\r\n"), MeshFormat::kPlyBinary);
 }
 
+TEST(MeshFormatTest, CommentsMayBeLong) {
+    const auto times = [](int count, const std::string& line) {
+        std::string text;
+        for (int i = 0; i < count; ++i) text += line;
+        return text;
+    };
+    EXPECT_EQ(detect(times(500, "# a line of comment\n") + "OFF\n3 1 0\n"), MeshFormat::kOff);
+    EXPECT_EQ(detect(times(500, "** a line of comment\n") + "*NODE\n"), MeshFormat::kInp);
+    EXPECT_EQ(detect(times(500, "$$ a line of comment\n") + "GRID,1,,0.,0.,0.\n"), MeshFormat::kBdf);
+    EXPECT_EQ(detect("$Comments\n" + times(500, "a line of comment\n") + "$EndComments\n$MeshFormat\n2.2 0 8\n"),
+              MeshFormat::kMsh2Ascii);
+    EXPECT_EQ(
+        detect("<?xml version=\"1.0\"?>\n<!--" + times(500, "a line of comment\n") + "-->\n<VTKFile type=\"UnstructuredGrid\">"),
+        MeshFormat::kVtu);
+    EXPECT_EQ(detect("ply\n" + times(500, "comment a line\n") + "format binary_little_endian 1.0\n"), MeshFormat::kPlyBinary);
+}
+
+TEST(MeshFormatTest, BulkDataBeginWithAnyCommandOrCard) {
+    const std::string grid = "\nGRID           1              0.      0.      0.\n";
+    for (const char* first : {"PARAM,POST,-1", "GRDSET,,,,,,,6", "CORD2R  1               0.", "ASSIGN OUTPUT2='a.op2'",
+                              "INIT MASTER(S)", "INCLUDE 'a.bdf'", "SET 1 = 1 THRU 5", "FORMAT H3D", "DISPLACEMENT(PLOT) = ALL",
+                              "TITLE = a part", "FORCE,1,2", "  $ comment\n   PARAM,POST,-1"}) {
+        EXPECT_EQ(detect(first + grid), MeshFormat::kBdf) << first;
+        EXPECT_EQ(detect(std::string(first) + "\nBEGIN BULK\n"), MeshFormat::kBdf) << first;
+    }
+    EXPECT_EQ(detect("  GRID,1,,0.,0.,0.\n"), MeshFormat::kBdf);
+    EXPECT_EQ(detect("\tCQUAD4\t1\t1\t1\t2\t3\t4\n"), MeshFormat::kBdf);
+    EXPECT_EQ(detect("A text about a\nGRID of 5 by 5\n"), std::nullopt);
+}
+
+TEST(MeshFormatTest, AFewOddBytesDoNotMakeATextBinary) {
+    const auto damaged = [](std::string text) {
+        text[text.size() / 2] = '\0';
+        return text;
+    };
+    for (const MeshFormat format :
+         {MeshFormat::kStlAscii, MeshFormat::kObj, MeshFormat::kOff, MeshFormat::kInp, MeshFormat::kBdf})
+        EXPECT_EQ(detect(damaged(write_mesh(cube(), format))), format) << format_name(format);
+    EXPECT_EQ(detect(damaged("A letter of more than 84 bytes is text all the same. " + std::string(200, '.'))), std::nullopt);
+}
+
+TEST(MeshFormatTest, ANameTellsWhatBytesDoNotTell) {
+    const auto told = [](const std::string& text, const char* name) {
+        return format_where_bytes_do_not_tell(std::as_bytes(std::span(text)), name);
+    };
+    EXPECT_EQ(told("EIGRL,1\n", "a.nas"), MeshFormat::kBdf);
+    EXPECT_EQ(told("3 1 0\n", "a.off"), MeshFormat::kOff);
+    EXPECT_EQ(told("deform 1\n", "a.OBJ"), MeshFormat::kObj);
+    EXPECT_EQ(told("OFF\n3 1 0\n", "a.bdf"), std::nullopt) << "the bytes tell it";
+    EXPECT_EQ(told("any text", "a.stl"), std::nullopt) << "an STL has a mark";
+    EXPECT_EQ(told("any text", "a.txt"), std::nullopt);
+}
+
 TEST(MeshFormatTest, OtherBytesAreNoFormat) {
     EXPECT_EQ(detect(""), std::nullopt);
     EXPECT_EQ(detect(" \n \n"), std::nullopt);

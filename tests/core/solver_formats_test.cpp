@@ -240,6 +240,141 @@ TEST(SolverFormatsTest, BulkDataInSmallLargeAndFreeFields) {
     EXPECT_EQ(named.sets, (std::vector<FaceSet>{{"flange", {3}}}));
 }
 
+TEST(SolverFormatsTest, InputDecksOfEveryFamilyOfFaces) {
+    const std::string nodes = kInpNodes;
+    for (const char* type : {"S3", "S3RS", "STRI3", "DS3", "M3D3", "SFM3D3", "R3D3", "CPS3", "CPE3H", "CPEG3", "CAX3", "CGAX3H",
+                             "DC2D3", "DCAX3", "AC2D3", "US3", "WARP2D3"}) {
+        EXPECT_EQ(must_read(nodes + "*ELEMENT, TYPE=" + type + "\n1, 1, 2, 3\n").faces.size(), 1U) << type;
+    }
+    for (const char* type : {"S4", "S4R5", "S4RSW", "M3D4R", "SFM3D4", "R3D4", "CPS4R", "CPE4RH", "CAX4", "DS4", "DC2D4E"}) {
+        EXPECT_EQ(must_read(nodes + "*ELEMENT, TYPE=" + type + "\n1, 1, 2, 7, 3\n").faces.size(), 2U) << type;
+    }
+    for (const char* type : {"S6", "STRI65", "M3D6", "CPE6M", "CAX6"}) {
+        EXPECT_EQ(must_read(nodes + "*ELEMENT, TYPE=" + type + "\n1, 1, 2, 3, 4, 5, 6\n").faces.size(), 1U) << type;
+    }
+    for (const char* type : {"S8R", "S8R5", "M3D8", "CPS8R", "CAX8"}) {
+        EXPECT_EQ(must_read(nodes + "*ELEMENT, TYPE=" + type + "\n1, 1, 2, 7, 3, 4, 5, 6, 8\n").faces.size(), 2U) << type;
+    }
+    for (const char* type : {"S9R5", "M3D9R"}) {
+        EXPECT_EQ(must_read(nodes + "*ELEMENT, TYPE=" + type + "\n1, 1, 2, 7, 3, 4, 5, 6, 8, 9\n").faces.size(), 2U) << type;
+    }
+}
+
+TEST(SolverFormatsTest, InputDecksPassOverElementsThatHaveNoFace) {
+    const std::string face = std::string(kInpNodes) + "*ELEMENT, TYPE=S3, ELSET=a\n1, 1, 2, 3\n";
+    for (const char* element : {"B31\n2, 1, 2", "T3D2\n2, 1, 2", "SPRINGA\n2, 1, 2", "MASS\n2, 1", "CONN3D2\n2, 1, 2",
+                                "DCOUP3D\n2, 1", "SC6R\n2, 1, 2, 3, 4, 5, 6", "CSS8\n2, 1, 2, 3, 4, 5, 6, 7, 8",
+                                "C3D20R\n2, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15,\n16, 17, 18, 19, 20",
+                                "C3D15V\n2, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15,\n16", "D\n2, 1, 2, 3",
+                                "SAX1\n2, 1, 2", "RB3D2\n2, 1, 2"}) {
+        const TriangleMesh mesh = must_read(face + "*ELEMENT, ELSET=b, TYPE=" + element + "\n*ELSET, ELSET=both\na, b\n");
+        EXPECT_EQ(mesh.faces.size(), 1U) << element;
+        EXPECT_EQ(members(mesh)["both"], (std::vector<std::uint32_t>{0})) << element;
+    }
+}
+
+TEST(SolverFormatsTest, KeywordsMayGoOnOverLines) {
+    const std::string nodes = kInpNodes;
+    using Sets = std::map<std::string, std::vector<std::uint32_t>>;
+    EXPECT_EQ(members(must_read(nodes + "*ELEMENT, TYPE=S3,\n** between\n  ELSET=a\n1, 1, 2, 3\n")), (Sets{{"a", {0}}}));
+    EXPECT_EQ(members(must_read(nodes + "*ELEMENT, TYPE=S3, ELSET=a,\n1, 1, 2, 3\n")), (Sets{{"a", {0}}}));
+    EXPECT_EQ(must_read("*NODE,\n1, 0, 0, 0\n2, 1, 0\n3, 0, 1.\n*Element,\ntype=S3\n1, 1, 2, 3\n*End Step\n").faces.size(), 1U);
+    std::string old = nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n";
+    std::replace(old.begin(), old.end(), '\n', '\r');
+    EXPECT_EQ(must_read(old).faces.size(), 1U);
+}
+
+/// A square of two faces in a set, and what places it.
+std::string assembly_of(const std::string& instances, const std::string& rest = "") {
+    return "*PART, NAME=P\n*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n*ELEMENT, TYPE=S4, ELSET=skin\n1,1,2,3,4\n*END PART\n"
+           "*ASSEMBLY, NAME=A\n" +
+           instances + rest + "*END ASSEMBLY\n";
+}
+
+TEST(SolverFormatsTest, AnInstanceIsItsPartMoved) {
+    const TriangleMesh two =
+        must_read(assembly_of("*INSTANCE, NAME=I, PART=p\n10.,0.,0.\n*END INSTANCE\n"
+                              "*INSTANCE, NAME=J, PART=P\n20.,,\n*END INSTANCE\n"));
+    ASSERT_EQ(two.faces.size(), 4U);
+    EXPECT_EQ(
+        two.positions,
+        (std::vector<Vec3>{{10, 0, 0}, {11, 0, 0}, {11, 1, 0}, {10, 1, 0}, {20, 0, 0}, {21, 0, 0}, {21, 1, 0}, {20, 1, 0}}));
+    EXPECT_EQ(two.faces[2], (Triangle{4, 5, 6}));
+    // Moved by (0, 0, 1), then turned by 90 degrees about the line x = 2, y = 0.
+    const TriangleMesh turned = must_read(assembly_of("*INSTANCE, NAME=I, PART=P\n0,0,1\n2,0,0, 2,0,5, 90\n*END INSTANCE\n"));
+    const std::vector<Vec3> expected{{2, -2, 1}, {2, -1, 1}, {1, -1, 1}, {1, -2, 1}};
+    ASSERT_EQ(turned.positions.size(), expected.size());
+    for (std::size_t v = 0; v < expected.size(); ++v) EXPECT_LT((turned.positions[v] - expected[v]).norm(), 1e-15);
+    EXPECT_EQ(
+        must_read("*PART, NAME=P\n*END PART\n*ASSEMBLY\n*INSTANCE, NAME=I, PART=P\n0,0,3\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n"
+                  "*ELEMENT, TYPE=S3\n1,1,2,3\n*END INSTANCE\n*END ASSEMBLY\n")
+            .positions[0],
+        Vec3(0, 0, 3))
+        << "a mesh within the instance moves with it";
+}
+
+TEST(SolverFormatsTest, AssembliesNameSetsOfInstances) {
+    using Sets = std::map<std::string, std::vector<std::uint32_t>>;
+    const std::string one = "*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n";
+    const std::string two = one + "*INSTANCE, NAME=J, PART=P\n5,0,0\n*END INSTANCE\n";
+    EXPECT_EQ(members(must_read(assembly_of(one, "*NODE\n1, 9, 9, 9\n*NSET, NSET=rp\n1\n"))), (Sets{{"skin", {0, 1}}}))
+        << "a reference point may have a number of the part's";
+    EXPECT_EQ(members(must_read(assembly_of(one, "*SURFACE, NAME=s, TYPE=ELEMENT\nI.skin, SPOS\n"))),
+              (Sets{{"skin", {0, 1}}, {"s", {0, 1}}}));
+    EXPECT_EQ(members(must_read(assembly_of(two, "*ELSET, ELSET=skin, INSTANCE=J\n1\n*ELSET, ELSET=all\nI.1, skin\n"))),
+              (Sets{{"I.skin", {0, 1}}, {"J.skin", {2, 3}}, {"skin", {2, 3}}, {"all", {0, 1, 2, 3}}}));
+    EXPECT_EQ(members(must_read(assembly_of(one, "*ELSET, ELSET=skin, INSTANCE=I, GENERATE\n1, 1\n"))),
+              (Sets{{"I.skin", {0, 1}}, {"skin", {0, 1}}}))
+        << "a set of the assembly is not the part's of that name";
+    EXPECT_EQ(members(must_read(assembly_of(one, "*SURFACE, NAME=t\nI.skin, SPOS\n*SURFACE, NAME=u, COMBINE=UNION\nt\n"))),
+              (Sets{{"skin", {0, 1}}, {"t", {0, 1}}, {"u", {0, 1}}}));
+}
+
+TEST(SolverFormatsTest, InstancesAreBounded) {
+    std::string text = "*PART, NAME=P\n*NODE\n";
+    for (int n = 1; n < 1000; ++n) text += std::to_string(n) + ", 0, 0, 0\n";
+    text += "*END PART\n";
+    for (int i = 0; i < 20'000; ++i) text += "*INSTANCE, NAME=I" + std::to_string(i) + ", PART=P\n";
+    const Expected<ReadResult> result = read(text, {.format = {}, .weld = 0, .max_faces = 10'000});
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().cause, Cause::kLimitExceeded) << result.error().message;
+    text.replace(text.find("*NODE"), 5, "*HEAT");
+    const Expected<ReadResult> no_nodes = read(text, {.format = {}, .weld = 0, .max_faces = 10'000});
+    ASSERT_FALSE(no_nodes);
+    EXPECT_NE(no_nodes.error().message.find("line 1: the instances of the file's parts come to more text"), std::string::npos)
+        << no_nodes.error().message;
+}
+
+TEST(SolverFormatsTest, BulkDataOfEveryCardWithAFace) {
+    const std::string grids = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,1.,1.,0.\n";
+    for (const char* card :
+         {"CTRIA3", "CTRIA6", "CTRIAR", "CTRIAX", "CTRAX3", "CTRAX6", "CPLSTN3", "CPLSTN6", "CPLSTS3", "CPLSTS6"})
+        EXPECT_EQ(must_read(grids + card + ",7,1,1,2,3\n").faces, (std::vector<Triangle>{{0, 1, 2}})) << card;
+    for (const char* card : {"CQUAD4", "CQUAD8", "CQUADR", "CQUAD", "CSHEAR", "CQUADX", "CQUADX4", "CQUADX8", "CPLSTN4",
+                             "CPLSTN8", "CPLSTS4", "CPLSTS8"})
+        EXPECT_EQ(must_read(grids + card + ",7,1,1,2,4,3\n").faces.size(), 2U) << card;
+    EXPECT_EQ(must_read(grids + "CTRIAX6,7,1,1,91,2,92,3,93\n").faces, (std::vector<Triangle>{{0, 1, 2}}))
+        << "corners and middles in turn";
+    EXPECT_EQ(must_read("SOL 101\nCEND\nCMETHOD = 3\nBEGIN BULK\n" + grids +
+                        "CTRIA3,7,1,1,2,3\nCBAR,8,1,1,2,,,1.\nCONM2,9,1,,1.\nCORD2R,1,,0.,0.,0.,0.,0.,1.\n+,1.,0.,0.\nCELAS2,3,1."
+                        ",1,1\nENDDATA\n")
+                  .faces.size(),
+              1U);
+}
+
+TEST(SolverFormatsTest, BulkDataWithTabsMarksBlanksAndLeftOutFields) {
+    const TriangleMesh one{{{0, 5, 0}, {1, 0, 5}, {0, 1, 5}}, {{0, 1, 2}}};
+    for (const std::string& text :
+         {std::string("GRID*,1,,0.,5.\n*,\nGRID*,2,,1.\n*,5.\nGRID*,3,,0.,1.,*A\n*A,5.\nCTRIA3*,1,1,1,2,*B\n*B,3\n"),
+          std::string("GRID\t1\t\t0.\t5.\nGRID\t2\t0\t1.\t\t5.\nGRID\t3\t\t\t1.\t5.\nCTRIA3\t1\t1\t1\t2\t3\n"),
+          std::string(
+              "  GRID,1,,0.,5.\n GRID    2               1.              5.\n\tGRID,\t3,\t,0.,1.,5.\n   CTRIA3,1,1,1,2,3\n")}) {
+        EXPECT_EQ(must_read(text), one) << text;
+    }
+    EXPECT_EQ(must_read("GRDSET,,3,,,,,123456\nGRID,1,0,0.,5.\nGRID,2,0,1.,,5.\nGRID,3,0,,1.,5.\nCTRIA3,1,1,1,2,3\n"), one)
+        << "a default that no point takes";
+}
+
 TEST(SolverFormatsTest, GmshFilesWithMoreThanTriangles) {
     const std::string text =
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 5 \"edge\"\n2 7 \"face of it\"\n$EndPhysicalNames\n"
@@ -311,7 +446,47 @@ TEST(SolverFormatsTest, BrokenFilesAreErrorsThatSayWhere) {
         {nodes + "*NODE\n2, 5, 5, 5\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n", Cause::kMalformedInput,
          "line 7: node 2 is defined a second"},
         {nodes + "*INCLUDE, INPUT=x\n", Cause::kUnsupported, "line 6: *INCLUDE"},
-        {nodes + "*PART, NAME=a\n*END PART\n*PART, NAME=b\n", Cause::kUnsupported, "line 8: a second *PART"},
+        {nodes + "*PART, NAME=a\n*END PART\n*PART, NAME=b\n*END PART\n", Cause::kUnsupported,
+         "line 8: the file has 2 parts, and no *INSTANCE"},
+        {nodes + "*PART, NAME=a\n*END PART\n*PART, NAME=A\n*END PART\n", Cause::kMalformedInput,
+         "line 8: part 'A' is there a second time"},
+        {nodes + "*PART, NAME=a\n*NODE\n", Cause::kTruncatedInput, "the file ends before the *END PART of part 'a'"},
+        {nodes + "*PART, NAME=a\n*PART, NAME=b\n", Cause::kMalformedInput, "line 7: *PART within part 'a'"},
+        {nodes + "*INSTANCE, NAME=i, PART=a\n", Cause::kMalformedInput,
+         "line 6: *INSTANCE is of part 'a', which does not come before"},
+        {nodes + "*INSTANCE, LIBRARY=job, INSTANCE=i\n", Cause::kUnsupported, "line 6: *INSTANCE: the parameter 'LIBRARY'"},
+        {assembly_of("*INSTANCE, NAME=I, PART=P\n*INSTANCE, NAME=i, PART=P\n"), Cause::kMalformedInput,
+         "line 12: instance 'i' is there a second time"},
+        {assembly_of("*INSTANCE, NAME=I, PART=P\n0, 0, x\n"), Cause::kMalformedInput,
+         "line 12: expected a coordinate, found 'x'"},
+        {assembly_of("*INSTANCE, NAME=I, PART=P\n\n0,0,0, 0,0,1, 90\n"), Cause::kMalformedInput, "line 13: expected 3 numbers"},
+        {assembly_of("*INSTANCE, NAME=I, PART=P\n0,0,0\n0,0,1, 0,0,1, 90\n"), Cause::kMalformedInput,
+         "line 13: the axis of the rotation"},
+        {assembly_of("*INSTANCE, NAME=I, PART=P\n*INSTANCE, NAME=J, PART=P\n*ELEMENT, TYPE=S3\n8, 1, 2, 99\n"),
+         Cause::kIndexOutOfRange, "line 14: element J.8 names node J.99, which"},
+        {assembly_of("", "*ELSET, ELSET=s, INSTANCE=K\n1\n"), Cause::kMalformedInput, "line 11: set 's' is of instance 'K'"},
+        {nodes + "*ELEMENT, TYPE=U1\n1, 1, 2, 3\n", Cause::kUnsupported, "line 6: elements of type 'U1' are not known"},
+        {nodes + "*ELEMENT, TYPE=F3D4\n1, 1, 2, 3, 7\n", Cause::kUnsupported, "line 6: elements of type 'F3D4' are not known"},
+        {nodes + "*ELEMENT, TYPE=B31\n1, 1, 2\n", Cause::kUnsupported,
+         "line 6: the file has elements of type 'B31', but no triangle"},
+        {nodes + "*ELEMNT, TYPE=S3\n1, 1, 2, 3\n", Cause::kUnsupported, "line 6: '*ELEMNT' is not known"},
+        {"*NODES\n1, 0, 0, 0\n", Cause::kUnsupported, "line 1: '*NODES' is not known"},
+        {nodes + "*ELGEN\n1, 1\n", Cause::kUnsupported, "line 6: *ELGEN makes or moves nodes or elements"},
+        {nodes + "*NCOPY, CHANGE NUMBER=5\n", Cause::kUnsupported, "line 6: *NCOPY makes or moves"},
+        {nodes + "*NGEN\n1, 2\n", Cause::kUnsupported, "line 6: *NGEN makes or moves"},
+        {nodes + "*ELSET, ELSET=a,\nb, c\n", Cause::kUnsupported, "line 6: *ELSET: the parameter 'B' is not read"},
+        {"*NODE, SYSTEM=C\n1, 1, 0, 0\n", Cause::kUnsupported, "line 1: *NODE, SYSTEM=C is not read"},
+        {"*NODE, INPUT=nodes.txt\n", Cause::kUnsupported, "line 1: *NODE: the parameter 'INPUT' is not read"},
+        {nodes + "*SURFACE, NAME=s, COMBINE=DIFFERENCE\na, b\n", Cause::kUnsupported, "line 6: *SURFACE, COMBINE=DIFFERENCE"},
+        {nodes + "*ELSET, ELSET=s, GENERATE\n11, 1, 2\n", Cause::kMalformedInput,
+         "line 7: expected a last element from the first, 11, on, found 1"},
+        {grids + "CFOO,1,1,1,2,3\n", Cause::kUnsupported, "line 4: CFOO: a card of this name is not known"},
+        {"GRDSET,,2\n" + grids + "CTRIA3,1,1,1,2,3\n", Cause::kUnsupported,
+         "line 1: GRDSET: grid points are given in coordinate system '2'"},
+        {grids + "GRID*,4,,0.,1.\nCTRIA3,1,1,1,2,3\n", Cause::kTruncatedInput,
+         "line 4: GRID: field 6 is on a line more, which does not follow"},
+        {grids + "CTRIA3*,1,1,1,2\n", Cause::kTruncatedInput, "line 4: CTRIA3: field 6 is on a line more"},
+        {"BEGIN BULK\n" + grids + "BEGIN SUPER=1\n", Cause::kUnsupported, "line 5: BEGIN SU: superelements"},
         {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n*ELSET, ELSET=s\nnone\n", Cause::kMalformedInput,
          "line 9: set 's' names the set 'none'"},
         {nodes + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n*ELSET\n1\n", Cause::kMalformedInput, "line 8: a set needs a name"},

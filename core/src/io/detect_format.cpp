@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "base/byte_order.h"
+#include "io/bdf_cards.h"
 #include "io/off_header.h"
 #include "io/stl_layout.h"
 #include "io/text_lines.h"
@@ -15,17 +16,43 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 constexpr std::size_t kWindow = 4096;
+constexpr std::size_t kMostComments = 1 << 20;  // bytes of them that are passed over
+
+/// More than damage leaves in a text. Numbers as bytes have a few in each dozen.
+template <typename Strange>
+bool has_many(std::string_view bytes, Strange is_strange) {
+    constexpr std::size_t kOneIn = 256;
+    return static_cast<std::size_t>(std::count_if(bytes.begin(), bytes.end(), is_strange)) > 1 + bytes.size() / kOneIn;
+}
+
+bool is_control(char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return code < '\t' || (code > '\r' && code < ' ');
+}
 
 /// Whether the bytes could be ASCII or UTF-8: no control characters but white space, no byte that UTF-8 never has.
 bool is_text(std::string_view bytes) {
-    return std::none_of(bytes.begin(), bytes.end(), [](char c) {
+    return !has_many(bytes, [](char c) {
         const auto code = static_cast<unsigned char>(c);
-        return code < '\t' || (code > '\r' && code < ' ') || code == 0xC0 || code == 0xC1 || code > 0xF4;
+        return is_control(c) || code == 0xC0 || code == 0xC1 || code > 0xF4;
     });
 }
 
-/// Files of numbers as bytes have zeros among the first few; damaged text may have any byte but seldom that one.
-bool has_zeros(std::string_view bytes) { return bytes.find('\0') != std::string_view::npos; }
+/// Text of any encoding has no control characters.
+bool has_controls(std::string_view bytes) { return has_many(bytes, is_control); }
+
+/// From the first line on that is neither blank nor a comment of OBJ, OFF (#), input decks (**) or bulk data ($); nothing where
+/// that is too far off.
+std::string_view without_comments(std::string_view text) {
+    const std::string_view seen = text.substr(0, kMostComments);
+    TextLines lines(seen);
+    while (lines.next()) {
+        const std::string_view line = trimmed(lines.line());
+        const bool comment = line.starts_with('#') || line.starts_with("**") || line.starts_with('$');
+        if (!line.empty() && !comment) return text.substr(static_cast<std::size_t>(lines.line().data() - text.data()));
+    }
+    return {};
+}
 
 /// No other file has as many bytes as these four of its own say.
 bool has_stl_length(Bytes bytes) {
@@ -67,21 +94,6 @@ bool is_obj_keyword(std::string_view word) {
     return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end();
 }
 
-/// By the first word that is no comment.
-std::optional<MeshFormat> detect_by_word(std::string_view text) {
-    TextLines lines(text);
-    // Comments as far as one can see: STL has none, OFF seldom more than a line.
-    if (!lines.next_content('#'))
-        return text.find('#') == std::string_view::npos ? std::nullopt : std::optional(MeshFormat::kObj);
-    std::string_view rest = lines.line();
-    const std::string_view word = next_word(rest);
-    if (is_off_keyword(word)) return MeshFormat::kOff;
-    if (has_zeros(text)) return {};  // the header of a binary STL may begin with any word
-    if (equals_ignoring_case(word, "solid")) return MeshFormat::kStlAscii;
-    if (is_obj_keyword(word)) return MeshFormat::kObj;
-    return {};
-}
-
 /// By the line of the format: its version, and whether bytes follow.
 MeshFormat kind_of_msh(std::string_view text) {
     std::string_view rest = text.substr(std::min(text.find("$MeshFormat"), text.size()));
@@ -99,31 +111,66 @@ MeshFormat kind_of_vtk(std::string_view text) {
     return equals_ignoring_case(trimmed(lines.line()), "BINARY") ? MeshFormat::kVtk : MeshFormat::kVtkAscii;
 }
 
-/// Nastran's cards and the lines around them, as far as one can see.
-bool has_nastran_line(std::string_view text) {
-    constexpr std::array<std::string_view, 11> kBegins = {"BEGIN BULK", "GRID", "CTRIA", "CQUAD",  "ENDDATA", "NASTRAN ",
-                                                          "SOL ",       "CEND", "MAT1",  "PSHELL", "ID "};
-    TextLines lines(text);
+/// A line that begins the bulk data, or a card of a point or an element with its number.
+bool is_bulk_line(std::string_view line) {
+    const std::string begin = upper_case(trimmed(line).substr(0, 16));
+    if (!begin.starts_with('B') && !begin.starts_with('G') && !begin.starts_with('C')) return false;
+    const std::size_t end = std::min(begin.find_first_of(" ,*\t="), begin.size());
+    const std::string_view name = std::string_view(begin).substr(0, end);
+    const std::string_view rest = trimmed(line).substr(end);
+    const std::size_t next = std::min(rest.find_first_not_of(" ,*\t"), rest.size());
+    if (name == "BEGIN") return equals_ignoring_case(rest.substr(next, 4), "BULK");
+    const BdfCard::Kind kind = bdf_card(name).kind;
+    const bool of_mesh = name == "GRID" || kind == BdfCard::Kind::kFace || kind == BdfCard::Kind::kSolid;
+    return of_mesh && next > 0 && next < rest.size() && rest[next] >= '0' && rest[next] <= '9';
+}
+
+/// Bulk data may begin with any command or card; they have such a line soon.
+bool is_bulk_data(std::string_view text) {
+    constexpr std::array<std::string_view, 8> kBegins = {"BEGIN BULK", "ENDDATA", "NASTRAN ", "SOL ",
+                                                         "CEND",       "MAT1",    "PSHELL",   "ID "};
+    TextLines lines(text.substr(0, kMostComments));
+    bool is_first = true;
     while (lines.next()) {
-        const std::string line = upper_case(lines.line());
-        if (std::any_of(kBegins.begin(), kBegins.end(), [&](std::string_view begin) { return line.starts_with(begin); }))
-            return true;
-        if (!trimmed(line).empty() && !line.starts_with('$')) return false;
+        const std::string_view line = trimmed(lines.line());
+        const std::string begin = is_first ? upper_case(line.substr(0, 16)) : std::string();
+        is_first = false;
+        const auto begins = [&](std::string_view known) { return begin.starts_with(known); };
+        if (std::any_of(kBegins.begin(), kBegins.end(), begins) || is_bulk_line(line)) return true;
     }
     return false;
 }
 
-std::optional<MeshFormat> detect_for_solvers(std::string_view text) {
+/// Formats that begin with a mark of their own.
+std::optional<MeshFormat> detect_by_mark(std::string_view text) {
+    if (text.starts_with("PK\x03\x04")) return MeshFormat::k3mf;  // no other format that is read is a zip archive
+    if (text.starts_with("ply\n") || text.starts_with("ply\r\n")) return kind_of_ply(text);
+    text = without_mark(text);
     if (text.starts_with("# vtk DataFile")) return kind_of_vtk(text);
     std::string_view rest = text;
     const std::string_view word = next_word(rest);
     if (word == "$MeshFormat" || (word == "$Comments" && text.find("$MeshFormat") != std::string_view::npos))
         return kind_of_msh(text);
     const bool xml = word.starts_with("<?xml") || word.starts_with("<VTKFile") || word.starts_with("<!--");
-    if (xml && text.find("<VTKFile") != std::string_view::npos) return MeshFormat::kVtu;
-    if (has_zeros(text)) return {};
+    return xml && text.find("<VTKFile") != std::string_view::npos ? std::optional(MeshFormat::kVtu) : std::nullopt;
+}
+
+/// By the first word that is no comment.
+std::optional<MeshFormat> detect_by_word(std::string_view text, bool has_bytes) {
+    const std::string_view content = without_comments(text);
+    if (content.empty()) {  // comments as far as one looks
+        const std::string_view comment = trimmed(text.substr(0, kWindow));
+        if (comment.starts_with('#')) return MeshFormat::kObj;
+        return comment.starts_with("**") ? std::optional(MeshFormat::kInp) : std::nullopt;
+    }
+    std::string_view line = content.substr(0, std::min(content.find_first_of("#\r\n"), content.size()));
+    const std::string_view word = next_word(line);
+    if (is_off_keyword(word)) return MeshFormat::kOff;
+    if (has_bytes) return {};  // the header of a binary STL may begin with any word
+    if (equals_ignoring_case(word, "solid")) return MeshFormat::kStlAscii;
+    if (is_obj_keyword(word)) return MeshFormat::kObj;
     if (word.starts_with('*') && word.size() > 1) return MeshFormat::kInp;
-    return has_nastran_line(text) ? std::optional(MeshFormat::kBdf) : std::nullopt;
+    return is_bulk_data(content) ? std::optional(MeshFormat::kBdf) : std::nullopt;
 }
 
 }  // namespace
@@ -131,12 +178,20 @@ std::optional<MeshFormat> detect_for_solvers(std::string_view text) {
 std::optional<MeshFormat> detect_format(Bytes bytes) {
     if (has_stl_length(bytes)) return MeshFormat::kStlBinary;
     const std::string_view window = as_text(bytes.first(std::min(bytes.size(), kWindow)));
-    if (window.starts_with("PK\x03\x04")) return MeshFormat::k3mf;  // no other format that is read is a zip archive
-    if (window.starts_with("ply\n") || window.starts_with("ply\r\n")) return kind_of_ply(window);
-    if (const std::optional<MeshFormat> format = detect_for_solvers(without_mark(window))) return format;
-    if (const std::optional<MeshFormat> format = detect_by_word(without_mark(window))) return format;
+    const std::string_view text = as_text(bytes.first(std::min(bytes.size(), 2 * kMostComments)));
+    if (const std::optional<MeshFormat> format = detect_by_mark(text)) return format;
+    if (const std::optional<MeshFormat> format = detect_by_word(without_mark(text), has_controls(window))) return format;
     if (!is_text(window) && resembles_binary_stl(bytes)) return MeshFormat::kStlBinary;
     return {};
+}
+
+std::optional<MeshFormat> format_where_bytes_do_not_tell(Bytes bytes, std::string_view file_name) {
+    if (detect_format(bytes)) return {};
+    const Expected<MeshFormat> named = format_by_extension(file_name);
+    if (!named) return {};
+    const bool has_no_mark =
+        *named == MeshFormat::kObj || *named == MeshFormat::kOff || *named == MeshFormat::kInp || *named == MeshFormat::kBdf;
+    return has_no_mark ? std::optional(*named) : std::nullopt;
 }
 
 }  // namespace vsplit

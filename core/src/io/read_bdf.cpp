@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <forward_list>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/bdf_cards.h"
 #include "io/element_builder.h"
 #include "io/read_error.h"
 #include "io/readers.h"
@@ -14,14 +16,26 @@ namespace vsplit {
 namespace {
 
 /// A card as Nastran has them, put together from its lines: small field (8 columns), large field (16, a star at the name), or
-/// free field (commas), each way with continuations.
+/// free field (commas), each way with continuations. Every line gives 8 fields, or 4 large ones.
 struct Card {
     std::string name;
     std::vector<std::string_view> fields;
     std::size_t line = 0;
+    std::forward_list<std::string> expanded;  // lines that had tabs, which fields point into
 };
 
 constexpr std::size_t kNameWidth = 8;
+constexpr std::size_t kFieldColumns = 64;  // behind the name; what follows is the mark of a continuation
+
+/// With tabs as the blanks up to the next column that is a multiple of 8.
+std::string with_blanks(std::string_view line) {
+    std::string text;
+    for (const char c : line) {
+        const bool tab = c == '\t';
+        text.append(tab ? kNameWidth - text.size() % kNameWidth : 1, tab ? ' ' : c);
+    }
+    return text;
+}
 
 /// Numbers may leave the E out, and have D for it: "1.5-3", "2.D+4".
 std::optional<double> parse_real(std::string_view field) {
@@ -37,6 +51,7 @@ public:
     BdfText(std::string_view text, std::uint32_t max_faces) : lines_(text), builder_(max_faces) {}
 
     Expected<TriangleMesh> read() {
+        const std::size_t begin = line_of_begin();
         while (lines_.next()) {
             std::string_view line = lines_.line();
             if (line.starts_with('$')) {
@@ -44,11 +59,12 @@ public:
                 continue;
             }
             line = line.substr(0, line.find('$'));
-            if (trimmed(line).empty()) continue;
-            if (upper_case(line).starts_with("ENDDATA")) break;
+            if (trimmed(line).empty() || lines_.number() <= begin) continue;
+            if (upper_case(trimmed(line).substr(0, 7)) == "ENDDATA") break;
             if (Status taken = take_line(line); !taken) return taken.error();
         }
         if (Status used = use_card(); !used) return used.error();
+        if (Status basic = check_default_system(); !basic) return basic.error();
         Expected<TriangleMesh> mesh = builder_.take();
         // One property, and that the first, says nothing: a file needs some.
         const auto is_one = [](std::uint32_t region) { return region == 1; };
@@ -69,61 +85,93 @@ private:
             builder_.name_region(std::string(name), static_cast<std::uint32_t>(*id));
     }
 
+    /// Of BEGIN BULK: before it stand commands, not cards. 0 where there is none.
+    std::size_t line_of_begin() const {
+        for (TextLines ahead = lines_; ahead.next();) {
+            std::string_view rest = ahead.line();
+            if (equals_ignoring_case(next_word(rest), "BEGIN")) return ahead.number();
+        }
+        return 0;
+    }
+
     Status take_line(std::string_view line) {
         const bool free = line.find(',') != std::string_view::npos;
-        std::string_view rest = line;
-        const std::string_view first = free ? next_field(rest, ',') : trimmed(line.substr(0, kNameWidth));
+        const bool tabs = !free && line.find('\t') != std::string_view::npos;
+        std::string blanks = tabs ? with_blanks(line) : std::string();
+        std::string_view rest = tabs ? std::string_view(blanks) : line;
+        const std::string first(free ? next_field(rest, ',') : trimmed(rest.substr(0, kNameWidth)));
         const bool continues = first.empty() || first.front() == '+' || first.front() == '*';
         if (!continues) {
             if (Status used = use_card(); !used) return used;
-            card_ = Card{upper_case(first.substr(0, first.find('*'))), {}, lines_.number()};
+            card_ = Card{upper_case(first.substr(0, first.find('*'))), {}, lines_.number(), {}};
         }
         if (!card_) return Done{};
-        if (free) return take_free(rest);
-        return take_columns(line, first.find('*') != std::string_view::npos ? 16 : 8);
-    }
-
-    Status take_free(std::string_view rest) {
-        while (!rest.empty()) {
-            const std::string_view field = next_field(rest, ',');
-            const bool mark = !field.empty() && field.front() == '+' && rest.empty() && !parse_real(field);
-            if (!mark) card_->fields.push_back(field);
+        if (tabs) rest = card_->expanded.emplace_front(std::move(blanks));
+        const std::size_t width = first.find('*') == std::string::npos ? 8 : 16;
+        if (free) {
+            take_free(rest, kFieldColumns / width);
+        } else {
+            take_columns(rest, width);
         }
         return Done{};
     }
 
-    Status take_columns(std::string_view line, std::size_t width) {
-        constexpr std::size_t kFieldColumns = 64;
+    /// Fields that are left out at the end are blank; what follows the last is the mark of a continuation.
+    void take_free(std::string_view rest, std::size_t fields) {
+        for (std::size_t i = 0; i < fields; ++i) {
+            const std::string_view field = next_field(rest, ',');
+            const bool mark = rest.empty() && (field.starts_with('+') || field.starts_with('*')) && !parse_real(field);
+            card_->fields.push_back(mark ? std::string_view() : field);
+        }
+    }
+
+    void take_columns(std::string_view line, std::size_t width) {
         line.remove_prefix(std::min(kNameWidth, line.size()));
-        line = line.substr(0, kFieldColumns);  // what follows is the mark of a continuation
         for (std::size_t at = 0; at < kFieldColumns; at += width) {
             card_->fields.push_back(at < line.size() ? trimmed(line.substr(at, width)) : std::string_view());
         }
-        return Done{};
     }
 
     Status use_card() {
         if (!card_) return Done{};
         const Card card = *std::exchange(card_, std::nullopt);
         if (card.name == "GRID") return use_grid(card);
-        if (card.name == "CTRIA3" || card.name == "CTRIA6" || card.name == "CTRIAR") return use_face(card, 3);
-        if (card.name == "CQUAD4" || card.name == "CQUAD8" || card.name == "CQUADR") return use_face(card, 4);
-        if (card.name == "CTETRA" || card.name == "CHEXA" || card.name == "CPENTA" || card.name == "CPYRAM")
-            builder_.skip_solid();
-        if (card.name == "INCLUDE" || card.name.starts_with("INCLUDE"))
+        if (card.name == "GRDSET") default_system_ = {std::string(field(card, 1)), card.line};
+        if (card.name.starts_with("BEGIN"))
+            return error(card, Cause::kUnsupported, "superelements and further models in a file are not read");
+        if (card.name.starts_with("INCLUDE"))
             return error(card, Cause::kUnsupported, "INCLUDE is not followed; put the mesh into one file");
+        const BdfCard kind = bdf_card(card.name);
+        if (kind.kind == BdfCard::Kind::kFace) return use_face(card, kind);
+        if (kind.kind == BdfCard::Kind::kSolid) builder_.skip_solid();
+        if (kind.kind == BdfCard::Kind::kUnknown) {
+            return error(card, Cause::kUnsupported,
+                         "a card of this name is not known, so it could be a face; read are CTRIA, CQUAD, CSHEAR, CTRAX, CQUADX, "
+                         "CPLSTN and CPLSTS; passed over solids, beams, rods, springs, masses");
+        }
         return Done{};
+    }
+
+    /// A system that GRDSET gives to the points that name none.
+    Status check_default_system() const {
+        const auto& [system, line] = default_system_;
+        if (system.empty() || !has_default_system_ || parse_integer(system) == 0) return Done{};
+        return read_error(
+            Cause::kUnsupported, at_line(line),
+            "GRDSET: grid points are given in coordinate system " + quoted(system) + "; only the basic one (0) is read");
     }
 
     Status use_grid(const Card& card) {
         const Expected<std::int64_t> id = integer(card, 0, "a grid point's number");
         if (!id) return id.error();
         const std::string_view system = field(card, 1);
+        has_default_system_ = has_default_system_ || system.empty();
         if (!system.empty() && parse_integer(system) != 0) {
             return error(card, Cause::kUnsupported,
                          "grid point " + std::to_string(*id) + " is given in coordinate system " + quoted(system) +
                              "; only the basic one (0) is read");
         }
+        if (Status whole = check_reach(card, 4); !whole) return whole;
         Vec3 position;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::string_view text = field(card, 2 + axis);
@@ -134,7 +182,7 @@ private:
         return builder_.add_node(*id, position, at_line(card.line));
     }
 
-    Status use_face(const Card& card, std::size_t corners) {
+    Status use_face(const Card& card, BdfCard kind) {
         const Expected<std::int64_t> id = integer(card, 0, "an element's number");
         if (!id) return id.error();
         std::int64_t property = *id;  // the default
@@ -143,14 +191,22 @@ private:
             if (!given) return given.error();
             property = *given;
         }
+        if (Status whole = check_reach(card, 2 + (kind.corners - 1) * kind.step); !whole) return whole;
         std::array<std::int64_t, 4> nodes{};
-        for (std::size_t i = 0; i < corners; ++i) {
-            const Expected<std::int64_t> node = integer(card, 2 + i, "a grid point's number");
+        for (std::size_t i = 0; i < kind.corners; ++i) {
+            const Expected<std::int64_t> node = integer(card, 2 + i * kind.step, "a grid point's number");
             if (!node) return node.error();
             nodes[i] = *node;
         }
-        return builder_.add_element(*id, std::span(nodes).first(corners), at_line(card.line),
+        return builder_.add_element(*id, std::span(nodes).first(kind.corners), at_line(card.line),
                                     static_cast<std::uint32_t>(property));
+    }
+
+    /// Its lines have a field of that number, blank or not.
+    static Status check_reach(const Card& card, std::size_t number) {
+        if (number < card.fields.size()) return Done{};
+        return error(card, Cause::kTruncatedInput,
+                     "field " + std::to_string(number + 2) + " is on a line more, which does not follow");
     }
 
     static std::string_view field(const Card& card, std::size_t number) {
@@ -174,6 +230,8 @@ private:
     TextLines lines_;
     ElementBuilder builder_;
     std::optional<Card> card_;
+    std::pair<std::string, std::size_t> default_system_;  // GRDSET's, and its line
+    bool has_default_system_ = false;                     // a point names none
 };
 
 }  // namespace

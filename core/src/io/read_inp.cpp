@@ -1,10 +1,13 @@
-#include <array>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/element_builder.h"
+#include "io/inp_assembly.h"
+#include "io/inp_elements.h"
+#include "io/inp_keyword.h"
 #include "io/read_error.h"
 #include "io/readers.h"
 #include "io/text_lines.h"
@@ -14,94 +17,199 @@ namespace vsplit {
 namespace {
 
 /// What is made of the lines under a keyword.
-enum class Section { kSkipped, kNodes, kElements, kSet, kSurface };
+enum class Section { kSkipped, kNodes, kElements, kSet, kSurface, kUnion, kInstance };
 
-struct ElementType {
-    std::size_t nodes = 0;
-    std::size_t corners = 0;  // 0: not a face
-};
-
-/// By what a type's name begins with: S3, S3R, S6, STRI3, STRI65, CPS3, CPE6, M3D3, SFM3D3, R3D3, S4, S4R, S8R, C3D4, ...
-std::optional<ElementType> element_type(std::string_view name) {
-    struct Known {
-        std::string_view prefix;
-        ElementType type;
-    };
-    static constexpr std::array<Known, 21> kKnown = {
-        {{"STRI65", {6, 3}}, {"STRI3", {3, 3}},  {"SFM3D3", {3, 3}}, {"SFM3D6", {6, 3}}, {"M3D3", {3, 3}}, {"M3D6", {6, 3}},
-         {"R3D3", {3, 3}},   {"R3D4", {4, 4}},   {"CPS3", {3, 3}},   {"CPS6", {6, 3}},   {"CPE3", {3, 3}}, {"CPE6", {6, 3}},
-         {"C3D4", {4, 0}},   {"C3D10", {10, 0}}, {"C3D8", {8, 0}},   {"C3D20", {20, 0}}, {"C3D6", {6, 0}}, {"C3D15", {15, 0}},
-         {"S3", {3, 3}},     {"S6", {6, 3}},     {"S4", {4, 4}}}};
-    for (const Known& known : kKnown) {
-        if (name.starts_with(known.prefix)) return known.type;
-    }
-    if (name.starts_with("S8")) return ElementType{8, 4};
-    return {};
-}
-
-/// Reads the surface of an Abaqus or CalculiX input deck: *NODE, *ELEMENT, *ELSET, *SURFACE of elements. What else there is
-/// (materials, steps, node sets) says nothing about the mesh and is passed over.
+/// Reads the surface of an Abaqus or CalculiX input deck: *NODE, *ELEMENT, *ELSET, *SURFACE of elements, each part as often as
+/// it is placed. What else there is (materials, steps, node sets) says nothing about the mesh and is passed over.
 class InpText {
 public:
-    InpText(std::string_view text, std::uint32_t max_faces) : lines_(text), builder_(max_faces) {}
+    InpText(std::string_view text, std::uint32_t max_faces)
+        : lines_(text), builder_(max_faces), part_bytes_left_(kPartBytes + kPartBytesAFace * max_faces + text.size()) {}
 
     Expected<TriangleMesh> read() {
-        while (lines_.next()) {
-            std::string_view line = trimmed(lines_.line());
-            if (line.empty() || line.starts_with("**")) continue;
-            const Status status = line.starts_with('*') ? read_keyword(line) : read_data(line);
-            if (!status) return status.error();
+        Status done = read_lines({});
+        if (done) done = place_instance();
+        if (done) done = read_lonely_part();
+        if (!done) return done.error();
+        Expected<TriangleMesh> mesh = builder_.take();
+        if (!mesh) {
+            Error error = mesh.error();
+            error.message = assembly_.in_words(error.message);
+            return error;
         }
-        if (Status whole = end_element(); !whole) return whole.error();
-        return builder_.take();
+        if (mesh->faces.empty() && !passed_over_.empty()) {
+            return read_error(Cause::kUnsupported, at_line(passed_over_line_),
+                              "the file has elements of type " + quoted(passed_over_) +
+                                  ", but no triangle or quadrilateral; a surface mesh is needed");
+        }
+        assembly_.shorten_names(mesh->sets);
+        return mesh;
     }
 
 private:
-    Status read_keyword(std::string_view line) {
-        if (Status whole = end_element(); !whole) return whole;
-        const std::string keyword = upper_case(next_field(line, ','));
-        read_parameters(line);
+    // Of text that instances repeat, what 3MF may unpack: a small file is not to make much work.
+    static constexpr std::uint64_t kPartBytes = 1 << 20;
+    static constexpr std::uint64_t kPartBytesAFace = 256;
+
+    /// To the end, or to the keyword `last`.
+    Status read_lines(std::string_view last) {
+        while (lines_.next()) {
+            const std::string_view line = trimmed(lines_.line());
+            if (line.empty() || line.starts_with("**")) continue;
+            if (!line.starts_with('*')) {
+                if (Status read = read_data(line); !read) return read;
+                continue;
+            }
+            if (Status whole = end_element(); !whole) return whole;
+            if (Status placed = place_instance(); !placed) return placed;
+            keyword_line_ = lines_.number();
+            keyword_ = take_inp_keyword(lines_);
+            if (keyword_.name == last) return Done{};
+            if (Status read = read_keyword(); !read) return read;
+        }
+        return end_element();
+    }
+
+    Status read_keyword() {
         section_ = Section::kSkipped;
-        if (keyword == "*NODE") section_ = Section::kNodes;
-        if (keyword == "*ELEMENT") return begin_elements();
-        if (keyword == "*ELSET") return begin_set("ELSET", Section::kSet);
-        if (keyword == "*SURFACE" && (type_.empty() || type_ == "ELEMENT")) return begin_set("NAME", Section::kSurface);
-        if (keyword == "*INCLUDE") return unsupported("*INCLUDE is not followed; put the mesh into one file");
-        if (keyword == "*SYSTEM") return unsupported("*SYSTEM is not read; give nodes in the global system");
-        if (keyword == "*PART" && std::exchange(has_part_, true))
-            return unsupported("a second *PART is not read; write each part, or the mesh without parts, into a file");
+        const std::string& name = keyword_.name;
+        if (Status known = check_inp_keyword(keyword_, at_line(keyword_line_)); !known) return known;
+        if (name == "*NODE") return begin_nodes();
+        if (name == "*ELEMENT") return begin_elements();
+        if (name == "*ELSET") return begin_set("ELSET", Section::kSet);
+        if (name == "*SURFACE") return begin_surface();
+        if (name == "*PART") return take_part();
+        if (name == "*INSTANCE") return begin_instance();
+        if (name == "*ENDINSTANCE") scope_ = 0;
         return Done{};
     }
 
-    void read_parameters(std::string_view rest) {
-        type_.clear();
-        elset_.clear();
-        name_.clear();
-        generate_ = false;
-        while (!trimmed(rest).empty()) {
-            std::string_view parameter = next_field(rest, ',');
-            const std::string key = upper_case(next_field(parameter, '='));
-            std::string_view value = trimmed(parameter);
-            if (value.size() > 1 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
-            if (key == "TYPE") type_ = upper_case(value);
-            if (key == "ELSET") elset_ = value;
-            if (key == "NAME") name_ = value;
-            if (key == "GENERATE") generate_ = true;
-        }
+    Status begin_nodes() {
+        const std::string system = upper_case(keyword_.value("SYSTEM"));
+        section_ = Section::kNodes;
+        if (system.empty() || system == "R") return Done{};
+        return unsupported("*NODE, SYSTEM=" + system + " is not read; give nodes in rectangular coordinates");
     }
 
     Status begin_elements() {
+        type_ = upper_case(keyword_.value("TYPE"));
+        const std::string set = keyword_.value("ELSET");
+        elset_ = set.empty() || equals_ignoring_case(set, kAllElements) ? std::string() : assembly_.set_name(scope_, set);
         if (type_.empty()) return malformed("*ELEMENT needs a TYPE");
-        element_ = element_type(type_);
-        section_ = element_ ? Section::kElements : Section::kSkipped;
+        const std::optional<InpElement> element = inp_element(type_);
+        if (!element) {
+            return unsupported(
+                "elements of type " + quoted(type_) +
+                " are not known, so they could be faces; read are shells, membranes, surface and plane elements of "
+                "3, 4, 6, 8 or 9 nodes; passed over solids, beams, trusses, springs, masses, connectors");
+        }
+        element_ = *element;
+        section_ = element_.nodes == 0 ? Section::kSkipped : Section::kElements;
+        if (element_.is_face()) return Done{};
+        if (passed_over_.empty()) passed_over_line_ = keyword_line_;
+        if (passed_over_.empty()) passed_over_ = type_;
+        // A set without a face is a set that others may name: a range of none.
+        if (!elset_.empty()) builder_.add_to_set(elset_, 1, 0, 1, at_line(keyword_line_));
         return Done{};
     }
 
     Status begin_set(const char* parameter, Section section) {
-        set_ = section == Section::kSet ? elset_ : name_;
+        set_ = keyword_.value(parameter);
         section_ = section;
-        if (!set_.empty()) return Done{};
-        return malformed("a set needs a name: " + std::string(parameter) + "=...");
+        member_scope_ = scope_;
+        if (set_.empty()) return malformed("a set needs a name: " + std::string(parameter) + "=...");
+        const std::string instance = keyword_.value("INSTANCE");
+        if (instance.empty()) return Done{};
+        const std::optional<std::size_t> scope = assembly_.find_instance(instance);
+        if (!scope)
+            return malformed("set " + quoted(set_) + " is of instance " + quoted(instance) + ", which does not come before");
+        member_scope_ = *scope;
+        return Done{};
+    }
+
+    Status begin_surface() {
+        const std::string type = upper_case(keyword_.value("TYPE"));
+        const std::string combine = upper_case(keyword_.value("COMBINE"));
+        if (!type.empty() && type != "ELEMENT") return Done{};
+        if (!combine.empty() && combine != "UNION") return unsupported("*SURFACE, COMBINE=" + combine + " is not read; UNION is");
+        return begin_set("NAME", combine.empty() ? Section::kSurface : Section::kUnion);
+    }
+
+    /// Passes over a part's lines: they are read where it is placed.
+    Status take_part() {
+        const std::string name = keyword_.value("NAME");
+        if (name.empty()) return malformed("*PART needs a NAME");
+        if (assembly_.find_part(name) != nullptr) return malformed("part " + quoted(name) + " is there a second time");
+        InpAssembly::Part part{lines_, 0, keyword_line_};
+        while (lines_.next()) {
+            const std::string_view line = trimmed(lines_.line());
+            if (!line.starts_with('*') || line.starts_with("**")) continue;
+            part.bytes = part.lines.rest().size() - lines_.rest().size();
+            const std::string keyword = take_inp_keyword(lines_).name;
+            if (keyword == "*PART") return malformed("*PART within part " + quoted(name) + "; expected its *END PART first");
+            if (keyword != "*ENDPART") continue;
+            assembly_.add_part(name, part);
+            return Done{};
+        }
+        return read_error(Cause::kTruncatedInput, place(), "the file ends before the *END PART of part " + quoted(name));
+    }
+
+    Status begin_instance() {
+        const std::string name = keyword_.value("NAME");
+        const std::string part = keyword_.value("PART");
+        if (name.empty() || part.empty()) return malformed("*INSTANCE needs a NAME and a PART");
+        part_ = assembly_.find_part(part);
+        if (part_ == nullptr) return malformed("*INSTANCE is of part " + quoted(part) + ", which does not come before");
+        if (assembly_.instances() >= kMostInstances)
+            return read_error(Cause::kLimitExceeded, at_line(keyword_line_), "the file has over a million instances");
+        const std::optional<std::size_t> scope = assembly_.add_instance(name);
+        if (!scope) return malformed("instance " + quoted(name) + " is there a second time");
+        scope_ = *scope;
+        section_ = Section::kInstance;
+        motion_.clear();
+        return Done{};
+    }
+
+    Status read_motion(std::string_view line) {
+        const std::size_t wanted = motion_.empty() ? 3 : 7;
+        if (motion_.size() > 3) return malformed("expected no third line of an instance's position");
+        for (std::size_t i = 0; i < wanted; ++i) {
+            const Expected<double> value = read_coordinate(next_field(line, ','));
+            if (!value) return value.error();
+            motion_.push_back(*value);
+        }
+        if (!trimmed(line).empty())
+            return malformed("expected " + std::to_string(wanted) + " numbers, found also " + quoted(line));
+        const std::string_view words = assembly_.move(scope_, motion_);
+        return words.empty() ? Status(Done{}) : malformed(std::string(words));
+    }
+
+    /// Once the lines that say where have been read: reads the part that is to be there.
+    Status place_instance() { return part_ == nullptr ? Status(Done{}) : read_part(*std::exchange(part_, nullptr)); }
+
+    Status read_part(const InpAssembly::Part& part) {
+        if (part.bytes > part_bytes_left_) {
+            return read_error(Cause::kLimitExceeded, at_line(part.line),
+                              "the instances of the file's parts come to more text than its limit of faces allows");
+        }
+        part_bytes_left_ -= part.bytes;
+        const TextLines here = std::exchange(lines_, part.lines);
+        section_ = Section::kSkipped;
+        const Status read = read_lines("*ENDPART");
+        if (read) lines_ = here;
+        section_ = Section::kSkipped;
+        return read;
+    }
+
+    /// Of a file that is but a part.
+    Status read_lonely_part() {
+        if (assembly_.instances() > 0 || assembly_.parts().empty()) return Done{};
+        if (assembly_.parts().size() == 1) return read_part(assembly_.parts().begin()->second);
+        std::size_t line = 0;
+        for (const auto& [name, part] : assembly_.parts()) line = std::max(line, part.line);
+        return read_error(Cause::kUnsupported, at_line(line),
+                          "the file has " + std::to_string(assembly_.parts().size()) +
+                              " parts, and no *INSTANCE that says which of them are there");
     }
 
     Status read_data(std::string_view line) {
@@ -113,9 +221,13 @@ private:
             case Section::kElements:
                 return read_element(line);
             case Section::kSet:
-                return generate_ ? read_generated(line) : read_members(line);
+                return keyword_.has("GENERATE") ? read_generated(line) : read_members(line);
             case Section::kSurface:
                 return read_side(next_field(line, ','));  // which side, or which edges, says nothing about the face
+            case Section::kUnion:
+                return read_members(line);
+            case Section::kInstance:
+                return read_motion(line);
         }
         return Done{};
     }
@@ -123,15 +235,21 @@ private:
     Status read_node(std::string_view line) {
         const Expected<std::int64_t> id = read_integer(next_field(line, ','), "a node's number");
         if (!id) return id.error();
-        Vec3 position = Vec3::Zero();
+        if (trimmed(line).empty()) return malformed("expected a coordinate, " + found(line));
+        Vec3 position;
         for (int axis = 0; axis < 3; ++axis) {
-            const std::string_view field = next_field(line, ',');
-            if (field.empty() && axis > 0) continue;  // left out: 0
-            const std::optional<double> value = parse_number(field);
-            if (!value) return malformed("expected a coordinate, " + found(field));
+            const Expected<double> value = read_coordinate(next_field(line, ','));
+            if (!value) return value.error();
             position[axis] = *value;
         }
-        return builder_.add_node(*id, position, place());
+        return builder_.add_node(assembly_.number(scope_, *id), assembly_.moved(scope_, position), place());
+    }
+
+    /// One that is left out is 0.
+    [[nodiscard]] Expected<double> read_coordinate(std::string_view field) const {
+        const std::optional<double> value = field.empty() ? 0.0 : parse_number(field);
+        if (value) return *value;
+        return malformed("expected a coordinate, " + found(field)).error();
     }
 
     /// An element goes on over lines until it has its nodes.
@@ -142,27 +260,27 @@ private:
             if (!number) return number.error();
             numbers_.push_back(*number);
         }
-        if (numbers_.size() <= element_->nodes) return Done{};
-        if (numbers_.size() > element_->nodes + 1) {
+        if (numbers_.size() <= element_.nodes) return Done{};
+        if (numbers_.size() > element_.nodes + 1) {
             return malformed("element " + std::to_string(numbers_[0]) + " of type " + quoted(type_) + " has " +
-                             std::to_string(numbers_.size() - 1) + " nodes; expected " + std::to_string(element_->nodes));
+                             std::to_string(numbers_.size() - 1) + " nodes; expected " + std::to_string(element_.nodes));
         }
-        const std::int64_t id = numbers_[0];
-        const std::vector<std::int64_t> nodes(numbers_.begin() + 1, numbers_.end());
-        numbers_.clear();
-        if (element_->corners == 0) {
+        if (!element_.is_face()) {
+            numbers_.clear();
             builder_.skip_solid();
             return Done{};
         }
-        if (!elset_.empty() && !equals_ignoring_case(elset_, kAllElements)) builder_.add_to_set(elset_, id, id, 1, place());
-        return builder_.add_element(id, std::span(nodes).first(element_->corners), at_line(element_line_));
+        for (std::int64_t& number : numbers_) number = assembly_.number(scope_, number);
+        const std::vector<std::int64_t> numbers = std::exchange(numbers_, {});
+        if (!elset_.empty()) builder_.add_to_set(elset_, numbers[0], numbers[0], 1, place());
+        return builder_.add_element(numbers[0], std::span(numbers).subspan(1, element_.corners), at_line(element_line_));
     }
 
     Status end_element() {
         if (numbers_.empty()) return Done{};
         return read_error(Cause::kMalformedInput, at_line(element_line_),
                           "element " + std::to_string(numbers_[0]) + " of type " + quoted(type_) + " ends after " +
-                              std::to_string(numbers_.size() - 1) + " nodes; expected " + std::to_string(element_->nodes));
+                              std::to_string(numbers_.size() - 1) + " nodes; expected " + std::to_string(element_.nodes));
     }
 
     Status read_generated(std::string_view line) {
@@ -177,7 +295,12 @@ private:
             step = *given;
         }
         if (step < 1) return malformed("expected a step of 1 or more, found " + std::to_string(step));
-        builder_.add_to_set(set_, *first, *last, step, place());
+        if (*last < *first) {
+            return malformed("expected a last element from the first, " + std::to_string(*first) + ", on, found " +
+                             std::to_string(*last));
+        }
+        builder_.add_to_set(assembly_.set_name(scope_, set_), assembly_.number(member_scope_, *first),
+                            assembly_.number(member_scope_, *last), step, place());
         return Done{};
     }
 
@@ -196,36 +319,52 @@ private:
 
     Status read_member(std::string_view field) {
         if (field.empty()) return malformed("expected an element's number or the name of a set, found nothing");
-        if (const std::optional<std::int64_t> id = parse_integer(field)) {
-            builder_.add_to_set(set_, *id, *id, 1, place());
-        } else {
-            builder_.add_set_to_set(set_, std::string(field), place());
+        const auto [scope, name] = assembly_.resolve(member_scope_, field);
+        const std::string set = assembly_.set_name(scope_, set_);
+        if (!parse_integer(name)) {
+            builder_.add_set_to_set(set, assembly_.set_name(scope, name), place());
+            return Done{};
         }
+        const Expected<std::int64_t> given = read_integer(name, "an element's number");
+        if (!given) return given.error();
+        const std::int64_t id = assembly_.number(scope, *given);
+        builder_.add_to_set(set, id, id, 1, place());
         return Done{};
     }
 
     [[nodiscard]] Expected<std::int64_t> read_integer(std::string_view field, const char* what) const {
         const std::optional<std::int64_t> number = parse_integer(field);
-        if (number && *number >= 0 && *number <= kLargestId) return *number;
+        if (number && *number >= 0 && *number < InpAssembly::kNumbers) return *number;
         return malformed("expected " + std::string(what) + ", " + found(field)).error();
     }
 
     [[nodiscard]] Place place() const { return at_line(lines_.number()); }
     [[nodiscard]] Status malformed(const std::string& what) const { return read_error(Cause::kMalformedInput, place(), what); }
-    [[nodiscard]] Status unsupported(const std::string& what) const { return read_error(Cause::kUnsupported, place(), what); }
+    [[nodiscard]] Status unsupported(const std::string& what) const {
+        return read_error(Cause::kUnsupported, at_line(keyword_line_), what);
+    }
+
+    static constexpr std::size_t kMostInstances = 1'000'000;
 
     TextLines lines_;
     ElementBuilder builder_;
+    InpAssembly assembly_;
+    std::size_t scope_ = 0;
     Section section_ = Section::kSkipped;
-    std::string type_;
+    InpKeyword keyword_;
+    std::size_t keyword_line_ = 0;
+    std::string type_;  // of elements
     std::string elset_;
-    std::string name_;
-    std::string set_;
-    bool generate_ = false;
-    bool has_part_ = false;
-    std::optional<ElementType> element_;
+    InpElement element_;
     std::vector<std::int64_t> numbers_;  // of an element that is not whole yet
     std::size_t element_line_ = 0;
+    std::string passed_over_;  // the first type without faces
+    std::size_t passed_over_line_ = 0;
+    std::string set_;
+    std::size_t member_scope_ = 0;
+    const InpAssembly::Part* part_ = nullptr;  // to be placed once its instance's motion is read
+    std::vector<double> motion_;
+    std::uint64_t part_bytes_left_ = 0;
 };
 
 }  // namespace

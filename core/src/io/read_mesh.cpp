@@ -105,7 +105,10 @@ Expected<ReadResult> read_mesh(std::span<const std::byte> bytes, const ReadOptio
     const Expected<std::optional<LengthUnit>> unit = agreed_unit(told, options.unit);
     if (!unit) return unit.error();
     if (mesh->faces.empty()) {
-        return Error{Cause::kEmptyInput, "the file has " + std::to_string(mesh->vertex_count()) + " vertices, but no face", ""};
+        return Error{Cause::kEmptyInput,
+                     "the file has " + std::to_string(mesh->vertex_count()) + " vertices, but no face; it was read as " +
+                         std::string(format_name(*format)),
+                     ""};
     }
     const std::uint32_t faces = mesh->face_count();
     const Expected<WeldCounts> counts = weld_read(*mesh, *format, options.weld);
@@ -127,7 +130,9 @@ std::uint64_t unpacked_size(std::span<const std::byte> bytes) {
 Expected<ReadResult> read_mesh_file(const std::filesystem::path& path, const ReadOptions& options) {
     const Expected<MappedFile> file = MappedFile::open(path);
     if (!file) return file.error();
-    return read_mesh(file->bytes(), options);
+    ReadOptions chosen = options;
+    if (!chosen.format) chosen.format = format_where_bytes_do_not_tell(file->bytes(), path.filename().string());
+    return read_mesh(file->bytes(), chosen);
 }
 
 }  // namespace vsplit

@@ -21,10 +21,12 @@ Expected<std::size_t> count_facets(std::span<const std::byte> bytes) {
     const std::size_t body = bytes.size() - kStlFacetsAt;
     const std::string counts = std::to_string(announced) + " facets of 50 bytes are announced, but the file holds " +
                                std::to_string(body / kStlFacetBytes);
-    if (announced * kStlFacetBytes > body) return read_error(Cause::kTruncatedInput, at_byte(kStlHeaderBytes), counts);
+    constexpr std::string_view kTakenFor = "; the bytes were taken for a binary STL";
+    if (announced * kStlFacetBytes > body)
+        return read_error(Cause::kTruncatedInput, at_byte(kStlHeaderBytes), counts + std::string(kTakenFor));
     if (announced * kStlFacetBytes < body) {
         return read_error(Cause::kMalformedInput, at_byte(kStlHeaderBytes),
-                          counts + " and " + std::to_string(body % kStlFacetBytes) + " bytes");
+                          counts + " and " + std::to_string(body % kStlFacetBytes) + " bytes" + std::string(kTakenFor));
     }
     return static_cast<std::size_t>(announced);
 }

@@ -14,10 +14,10 @@ namespace vsplit {
 /// `text` without a byte order mark.
 [[nodiscard]] std::string_view without_mark(std::string_view text);
 
-/// A text, line by line. Lines end in LF or CR LF.
+/// A text, line by line. Lines end in LF or CR LF, or in CR where there is no LF at all.
 class TextLines {
 public:
-    explicit TextLines(std::string_view text) : rest_(text) {}
+    explicit TextLines(std::string_view text);
 
     /// Goes to the next line; false at the end.
     bool next();
@@ -36,6 +36,7 @@ private:
     std::string_view rest_;
     std::string_view line_;
     std::size_t number_ = 0;
+    char end_;
 };
 
 /// Takes the next word (between white space) off the front of `line`; empty when there is none.

@@ -42,8 +42,14 @@ enum class MeshFormat {
 /// By the extension of a file's name (".stl" is binary), in any case. \return UNKNOWN_FORMAT listing the extensions.
 [[nodiscard]] Expected<MeshFormat> format_by_extension(std::string_view file_name);
 
-/// By the bytes themselves; a binary STL whose header begins with "solid" is told by its length.
-/// Empty when no format fits. O(1): looks at the first few KiB and the length.
+/// By the bytes themselves; a binary STL whose header begins with "solid" is told by its length. A few odd bytes do not make a
+/// text a binary file.
+/// Empty when no format fits. O(1): looks at the first few KiB and the length, and past comments for a MiB at most.
 [[nodiscard]] std::optional<MeshFormat> detect_format(std::span<const std::byte> bytes);
+
+/// What to read a file as whose bytes do not tell it: by its name, among the formats that have no mark of their own (OBJ, OFF,
+/// INP, BDF). Empty where the bytes tell it, or the name does not either. Complexity: as detect_format.
+[[nodiscard]] std::optional<MeshFormat> format_where_bytes_do_not_tell(std::span<const std::byte> bytes,
+                                                                       std::string_view file_name);
 
 }  // namespace vsplit

@@ -46,7 +46,8 @@ struct ReadResult {
 /// own. For who sets memory aside. O(size of the archive's table).
 [[nodiscard]] std::uint64_t unpacked_size(std::span<const std::byte> bytes);
 
-/// Maps the file into memory and reads it. FILE_ACCESS or NOT_FOUND when it cannot be opened.
+/// Maps the file into memory and reads it. Where neither the options nor the bytes tell the format, its name does (see
+/// format_where_bytes_do_not_tell). \return as read_mesh; FILE_ACCESS or NOT_FOUND when it cannot be opened.
 [[nodiscard]] Expected<ReadResult> read_mesh_file(const std::filesystem::path& path, const ReadOptions& options);
 
 }  // namespace vsplit
