@@ -1,12 +1,15 @@
 #include "wire/json_check.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "wire/enum_value.h"
 #include "wire/field.h"
 #include "wire/json_value.h"
 #include "wire/utf8.h"
@@ -26,11 +29,64 @@ bool is_protobufs_own(const Field& field) {
     return field.cpp_type() == Field::CPPTYPE_MESSAGE && field.message_type()->file()->package() == "google.protobuf";
 }
 
+// A text on its way through nlohmann's lexer, which says nowhere how far it is: this does, after each character that it takes.
+class Place {
+public:
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    Place(const char* at, const char** reached) : at_(at), reached_(reached) {}
+    reference operator*() const { return *at_; }
+    Place& operator++() {
+        *reached_ = ++at_;
+        return *this;
+    }
+    Place operator++(int) {
+        const Place before = *this;
+        ++*this;
+        return before;
+    }
+    friend bool operator==(const Place& l, const Place& r) { return l.at_ == r.at_; }
+    friend bool operator!=(const Place& l, const Place& r) { return l.at_ != r.at_; }
+
+private:
+    const char* at_;
+    const char** reached_;
+};
+
+// A text in which some of its texts are replaced, in order.
+class Respelling {
+public:
+    explicit Respelling(std::string_view text) : text_(text), reached_(text.data()) {}
+
+    [[nodiscard]] Place begin() { return {text_.data(), &reached_}; }
+    [[nodiscard]] Place end() { return {text_.data() + text_.size(), &reached_}; }
+
+    // The lexer has taken a text, without " in it, to its closing quote.
+    void replace_last(const std::string& name) {
+        const auto quote = static_cast<std::size_t>(reached_ - text_.data()) - 1;
+        const std::size_t first = text_.rfind('"', quote - 1) + 1;
+        made_.append(text_, copied_, first - copied_).append(name);
+        copied_ = quote;
+    }
+
+    [[nodiscard]] std::string made() && { return std::move(made_.append(text_, copied_)); }
+
+private:
+    const std::string_view text_;
+    const char* reached_;
+    std::string made_;
+    std::size_t copied_ = 0;
+};
+
 // Follows a text as nlohmann's parser reads it. Returning false ends that; `error` says why.
 class Reader {
 public:
-    Reader(std::string_view text, const pb::Descriptor& type, UnknownFields unknown)
-        : text_(text), root_(type), unknown_(unknown) {}
+    Reader(std::string_view text, const pb::Descriptor& type, UnknownFields unknown, Respelling* respelling = nullptr)
+        : text_(text), root_(type), unknown_(unknown), respelling_(respelling) {}
 
     [[nodiscard]] Expected<JsonSize> result() && {
         if (error_) return *std::move(error_);
@@ -162,8 +218,17 @@ private:
         if (frames_.empty()) return refuse(no_object(text_of(value)));
         if (takes_anything() || std::holds_alternative<std::nullptr_t>(value)) return true;  // null: as if it were not there
         const Field& field = *frames_.back().field;
-        if (is_place_of_one(field) && takes_value(field, value)) return true;
-        return misfit(text_of(value));
+        if (!is_place_of_one(field) || !takes_value(field, value)) return misfit(text_of(value));
+        if (field.cpp_type() == Field::CPPTYPE_ENUM) respell(*field.enum_type(), std::get_if<std::string>(&value));
+        return true;
+    }
+
+    // Protobuf takes one name only; a number in a text is no name at all.
+    void respell(const pb::EnumDescriptor& type, const std::string* name) {
+        const pb::EnumValueDescriptor* const called = name == nullptr ? nullptr : find_value(type, *name);
+        if (called == nullptr || called->name() == *name) return;
+        size_.respelled = true;
+        if (respelling_ != nullptr) respelling_->replace_last(called->name());
     }
 
     [[nodiscard]] Error no_object(const std::string& what) const {
@@ -202,6 +267,7 @@ private:
     const std::string_view text_;
     const pb::Descriptor& root_;
     const UnknownFields unknown_;
+    Respelling* const respelling_;
     JsonSize size_;
     std::vector<Frame> frames_;
     std::vector<const Field*> seen_;
@@ -214,6 +280,13 @@ Expected<JsonSize> check_json(std::string_view text, const pb::Descriptor& type,
     Reader reader(text, type, unknown);
     static_cast<void>(nlohmann::json::sax_parse(text.begin(), text.end(), &reader));
     return std::move(reader).result();
+}
+
+std::string respell_json(std::string_view text, const pb::Descriptor& type) {
+    Respelling respelling(text);
+    Reader reader(text, type, UnknownFields::kIgnored, &respelling);
+    static_cast<void>(nlohmann::json::sax_parse(respelling.begin(), respelling.end(), &reader));
+    return std::move(respelling).made();
 }
 
 }  // namespace vsplit::wire
