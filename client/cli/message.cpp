@@ -134,8 +134,8 @@ std::string finding_messages(const v1::Representation& made) {
 }
 
 std::string assumed_unit_note(const std::string& path, const std::string& other, LengthUnit unit) {
-    return "vsplit: note: the unit of " + path + " is not known; its lengths are taken to be in " +
-           std::string(unit_symbol(unit)) + ", as those of " + other + "\n";
+    return "vsplit: note: the unit of " + path + " is not known; taken is " + std::string(unit_symbol(unit)) + ", that of " +
+           other + "\n";
 }
 
 std::string nothing_removed_note(const FeatureRemoval& removal, const v1::ListFeaturesResponse& features) {

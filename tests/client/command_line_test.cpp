@@ -438,12 +438,10 @@ TEST_F(CommandLineTest, UnitsThatAreAssumedAreTold) {
     ASSERT_TRUE(write_mesh_file(test::cube(), MeshFormat::k3mf, inches, LengthUnit::kInch));
     EXPECT_EQ(run({"quality", one, "--against", other}).err, "") << "nothing is assumed";
     const std::string stated = run({"quality", one, "--unit", "mm", "--against", other}).err;
-    EXPECT_EQ(stated, "vsplit: note: the unit of " + other + " is not known; its lengths are taken to be in mm, as those of " +
-                          one + "\n");
+    EXPECT_EQ(stated, "vsplit: note: the unit of " + other + " is not known; taken is mm, that of " + one + "\n");
     EXPECT_EQ(run({"quality", one, "--unit", "MM", "--against", inches}).err, "") << "converted";
     const CommandResult taken = run({"quality", one, "--against", inches});
-    EXPECT_EQ(taken.err, "vsplit: note: the unit of " + one + " is not known; its lengths are taken to be in in, as those of " +
-                             inches + "\n");
+    EXPECT_EQ(taken.err, "vsplit: note: the unit of " + one + " is not known; taken is in, that of " + inches + "\n");
     EXPECT_NE(taken.out.find("diagonal          1.73205 in\n"), std::string::npos) << taken.out;
 }
 
