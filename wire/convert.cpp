@@ -114,6 +114,15 @@ v1::Finding to_proto(const Finding& finding) {
     return proto;
 }
 
+v1::FaceGroup to_proto(const FaceGroup& group) {
+    constexpr std::size_t kNameBytes = 256;
+    v1::FaceGroup proto;
+    proto.set_name(valid_utf8(group.name, kNameBytes));
+    add_elements(group.regions, *proto.mutable_regions());
+    proto.set_faces(group.faces);
+    return proto;
+}
+
 v1::MeshSummary to_proto(const MeshReport& report) {
     v1::MeshSummary proto;
     proto.set_vertices(report.vertices);
@@ -127,6 +136,7 @@ v1::MeshSummary to_proto(const MeshReport& report) {
     for (const Finding& finding : report.findings) *proto.add_findings() = to_proto(finding);
     proto.set_unit(to_proto(report.unit));
     proto.mutable_quality()->set_unit(proto.unit());
+    set_groups(report.groups, proto);
     return proto;
 }
 
@@ -421,6 +431,9 @@ v1::ProfileReport to_proto(const ProfileReport& report) {
         added.set_worst_face(criterion.worst_face);
         added.set_warned(criterion.warned);
         added.set_failed(criterion.failed);
+        added.set_upper(criterion.upper);
+        added.set_warn_limit(criterion.warn_limit);
+        added.set_fail_limit(criterion.fail_limit);
     }
     add_elements(report.worst, *proto.mutable_worst_faces());
     return proto;

@@ -6,6 +6,7 @@
 #include "vsplit/base/execution_context.h"
 #include "vsplit/base/expected.h"
 #include "vsplit/io/mesh_format.h"
+#include "vsplit/mesh/face_groups.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/mesh/length_unit.h"
 #include "vsplit/method/method_options.h"
@@ -32,6 +33,16 @@ namespace vsplit::wire {
 [[nodiscard]] v1::Quality to_proto(const Quality& quality, std::span<const FaceQuality> worst = {});
 
 [[nodiscard]] v1::Finding to_proto(const Finding& finding);
+
+[[nodiscard]] v1::FaceGroup to_proto(const FaceGroup& group);
+
+/// `groups` and `group_count` of a message that has them.
+template <class Proto>
+void set_groups(const FaceGroups& groups, Proto& proto) {
+    proto.clear_groups();
+    for (const FaceGroup& group : groups.listed) *proto.add_groups() = to_proto(group);
+    proto.set_group_count(groups.count);
+}
 
 [[nodiscard]] v1::MeshSummary to_proto(const MeshReport& report);
 

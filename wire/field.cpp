@@ -1,5 +1,6 @@
 #include "wire/field.h"
 
+#include "wire/enum_value.h"
 #include "wire/utf8.h"
 
 namespace vsplit::wire {
@@ -12,7 +13,11 @@ constexpr std::size_t kQuotedBytes = 100;
 
 std::string names_of(const pb::EnumDescriptor& type) {
     std::string names;
-    for (int i = 0; i < type.value_count(); ++i) names += (i == 0 ? "" : ", ") + type.value(i)->name();
+    for (int i = 0; i < type.value_count(); ++i) {
+        names += (i == 0 ? "" : ", ") + type.value(i)->name();
+        const std::string_view symbol = symbol_of(*type.value(i));
+        if (!symbol.empty()) names.append(" (").append(symbol).append(")");
+    }
     return names;
 }
 

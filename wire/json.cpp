@@ -19,11 +19,13 @@ std::string to_json(const pb::Message& message, JsonStyle style) {
 
 Status from_json(std::string_view text, pb::Message& message, UnknownFields unknown, const AdmitJson& admit) {
     const pb::Descriptor& type = *message.GetDescriptor();
+    std::string respelled;
     // Times and durations are texts: only protobuf knows its own types.
     if (type.file()->package() != "google.protobuf") {
         const Expected<JsonSize> size = check_json(text, type, unknown);
         if (!size) return size.error();
         if (Status admitted = admit ? admit(*size) : Status(Done{}); !admitted) return admitted;
+        if (size->respelled) text = respelled = respell_json(text, type);
     }
     pb::util::JsonParseOptions options;
     options.ignore_unknown_fields = unknown == UnknownFields::kIgnored;

@@ -20,8 +20,8 @@ enum class JsonStyle { kLine, kIndented };
 /// Whether so much may be made of a text.
 using AdmitJson = std::function<Status(const JsonSize&)>;
 
-/// Fills `message` from proto3 JSON; `admit` is asked before anything is made. \return what check_json and `admit` return.
-/// O(text).
+/// Fills `message` from proto3 JSON, enums as find_value has them; `admit` is asked before anything is made. \return what
+/// check_json and `admit` return. O(text).
 [[nodiscard]] Status from_json(std::string_view text, google::protobuf::Message& message,
                                UnknownFields unknown = UnknownFields::kRefused, const AdmitJson& admit = {});
 

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "wire/enum_value.h"
 #include "wire/field.h"
+#include "wire/json_respelling.h"
 #include "wire/json_value.h"
 #include "wire/utf8.h"
 
@@ -29,8 +31,8 @@ bool is_protobufs_own(const Field& field) {
 // Follows a text as nlohmann's parser reads it. Returning false ends that; `error` says why.
 class Reader {
 public:
-    Reader(std::string_view text, const pb::Descriptor& type, UnknownFields unknown)
-        : text_(text), root_(type), unknown_(unknown) {}
+    Reader(std::string_view text, const pb::Descriptor& type, UnknownFields unknown, Respelling* respelling = nullptr)
+        : text_(text), root_(type), unknown_(unknown), respelling_(respelling) {}
 
     [[nodiscard]] Expected<JsonSize> result() && {
         if (error_) return *std::move(error_);
@@ -162,8 +164,17 @@ private:
         if (frames_.empty()) return refuse(no_object(text_of(value)));
         if (takes_anything() || std::holds_alternative<std::nullptr_t>(value)) return true;  // null: as if it were not there
         const Field& field = *frames_.back().field;
-        if (is_place_of_one(field) && takes_value(field, value)) return true;
-        return misfit(text_of(value));
+        if (!is_place_of_one(field) || !takes_value(field, value)) return misfit(text_of(value));
+        if (field.cpp_type() == Field::CPPTYPE_ENUM) respell(*field.enum_type(), std::get_if<std::string>(&value));
+        return true;
+    }
+
+    // Protobuf takes one name only; a number in a text is no name at all.
+    void respell(const pb::EnumDescriptor& type, const std::string* name) {
+        const pb::EnumValueDescriptor* const called = name == nullptr ? nullptr : find_value(type, *name);
+        if (called == nullptr || called->name() == *name) return;
+        size_.respelled = true;
+        if (respelling_ != nullptr) respelling_->replace_last(called->name());
     }
 
     [[nodiscard]] Error no_object(const std::string& what) const {
@@ -202,6 +213,7 @@ private:
     const std::string_view text_;
     const pb::Descriptor& root_;
     const UnknownFields unknown_;
+    Respelling* const respelling_;
     JsonSize size_;
     std::vector<Frame> frames_;
     std::vector<const Field*> seen_;
@@ -214,6 +226,13 @@ Expected<JsonSize> check_json(std::string_view text, const pb::Descriptor& type,
     Reader reader(text, type, unknown);
     static_cast<void>(nlohmann::json::sax_parse(text.begin(), text.end(), &reader));
     return std::move(reader).result();
+}
+
+std::string respell_json(std::string_view text, const pb::Descriptor& type) {
+    Respelling respelling(text);
+    Reader reader(text, type, UnknownFields::kIgnored, &respelling);
+    static_cast<void>(nlohmann::json::sax_parse(respelling.begin(), respelling.end(), &reader));
+    return std::move(respelling).made();
 }
 
 }  // namespace vsplit::wire

@@ -3,6 +3,7 @@
 #include <google/protobuf/descriptor.h>
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "vsplit/base/expected.h"
@@ -13,6 +14,7 @@ namespace vsplit::wire {
 struct JsonSize {
     std::uint64_t messages = 0;  ///< objects
     std::uint64_t values = 0;    ///< numbers, texts, true, false and null
+    bool respelled = false;      ///< whether a value of an enum is called otherwise than protobuf calls it
 };
 
 enum class UnknownFields { kRefused, kIgnored };
@@ -22,5 +24,8 @@ enum class UnknownFields { kRefused, kIgnored };
 /// MALFORMED_INPUT saying where for what is no JSON or no object. O(text), memory O(depth).
 [[nodiscard]] Expected<JsonSize> check_json(std::string_view text, const google::protobuf::Descriptor& type,
                                             UnknownFields unknown);
+
+/// The same text with every value of an enum called as protobuf calls it. \pre check_json accepts the text. O(text).
+[[nodiscard]] std::string respell_json(std::string_view text, const google::protobuf::Descriptor& type);
 
 }  // namespace vsplit::wire

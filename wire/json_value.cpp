@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "wire/enum_value.h"
+
 namespace vsplit::wire {
 namespace pb = google::protobuf;
 using Field = pb::FieldDescriptor;
@@ -62,7 +64,7 @@ struct IsNumber {
 bool is_enumerator(const pb::EnumDescriptor& type, const JsonScalar& value) {
     const auto* const name = std::get_if<std::string>(&value);
     if (name == nullptr) return std::visit(IsWhole<std::int32_t>(), value);
-    if (type.FindValueByName(*name) != nullptr) return true;
+    if (find_value(type, *name) != nullptr) return true;
     const std::optional<std::int32_t> number = parse<std::int32_t>(*name);
     return number && type.FindValueByNumber(*number) != nullptr;
 }

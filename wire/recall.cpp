@@ -117,6 +117,9 @@ Expected<MeshReport> from_proto(const v1::MeshSummary& summary) {
     const Expected<std::optional<LengthUnit>> unit = from_proto(summary.unit());
     if (!unit) return unit.error();
     report.unit = *unit;
+    for (const v1::FaceGroup& group : summary.groups())
+        report.groups.listed.push_back({group.name(), {group.regions().begin(), group.regions().end()}, group.faces()});
+    report.groups.count = summary.group_count();
     return report;
 }
 

@@ -94,6 +94,7 @@ v1::InterruptedMethod describe_interrupted(const std::string& source_representat
 void describe_resolution(const TriangleMesh& mesh, v1::Representation& representation) {
     describe_quality(measure_quality(mesh), representation);
     describe_bounds(mesh, representation);
+    set_groups(list_groups(mesh), representation);
 }
 
 void describe_quality(const Quality& quality, v1::Representation& representation) {

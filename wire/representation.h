@@ -18,8 +18,8 @@ namespace vsplit::wire {
                                                          const MethodOptions& options);
 
 /// Moves the figures of a Representation to another of its resolutions, whose mesh is given: faces, quality, and, for CONTROL,
-/// what breaks its bounds there. What the method said of a bound stays its reason; what takes the source to tell, deviations and
-/// slivers, goes. O(faces log faces).
+/// what breaks its bounds there; and its groups. What the method said of a bound stays its reason; what takes the source to tell,
+/// deviations and slivers, goes. O(faces log faces).
 void describe_resolution(const TriangleMesh& mesh, v1::Representation& representation);
 
 /// The two parts of it, for who has the figures already: the quality of the mesh, and after it which bounds of Control hold.

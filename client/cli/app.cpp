@@ -53,7 +53,7 @@ bool runs_method(Verb verb) { return verb == Verb::kImprove || verb == Verb::kCo
 void print_notes(const Arguments& arguments, const v1::Representation& made) {
     const std::optional<std::uint32_t> asked = asked_faces(arguments);
     if (asked) std::cerr << nearest_note(*asked, made);
-    if (runs_method(arguments.verb)) std::cerr << violation_messages(made);
+    if (runs_method(arguments.verb)) std::cerr << finding_messages(made) << violation_messages(made);
 }
 
 int finish(const Arguments& arguments, const Outcome& outcome) {
@@ -62,6 +62,7 @@ int finish(const Arguments& arguments, const Outcome& outcome) {
         std::cerr << error_message({Cause::kFileAccess, "cannot write to the standard output", ""});
         return kExitFailed;
     }
+    std::cerr << outcome.note;
     const auto* made = std::get_if<v1::Representation>(&outcome.document);
     if (made == nullptr) return kExitDone;
     print_notes(arguments, *made);

@@ -12,6 +12,8 @@
 
 #include "cli/app.h"
 #include "cli/message.h"
+#include "wire/convert.h"
+#include "wire/enum_value.h"
 
 namespace vsplit::cli {
 namespace {
@@ -48,7 +50,7 @@ CLI::Validator one_of(const std::map<std::string, Value>& values) {
     std::string accepted;
     for (const auto& [text, value] : values) accepted += (accepted.empty() ? "" : ", ") + text;
     const auto check = [values, accepted](const std::string& text) {
-        return values.count(text) > 0 ? std::string() : "'" + text + "' is given; accepted is one of " + accepted;
+        return values.count(wire::folded(text)) > 0 ? std::string() : "'" + text + "' is given; accepted is one of " + accepted;
     };
     return {check, ""};
 }
@@ -57,13 +59,16 @@ CLI::Validator one_of(const std::map<std::string, Value>& values) {
 template <class Value>
 CLI::Option* add_choice(CLI::App& verb, const std::string& name, const std::map<std::string, Value>& values,
                         const std::function<void(Value)>& take, const std::string& about) {
-    const auto convert = [values, take](const std::string& text) { take(values.at(text)); };
+    const auto convert = [values, take](const std::string& text) { take(values.at(wire::folded(text))); };
     return verb.add_option_function<std::string>(name, convert, about)->check(one_of(values));
 }
 
 void add_unit(CLI::App& verb, const std::string& name, std::optional<LengthUnit>& unit, const std::string& about) {
     std::map<std::string, LengthUnit> units;
-    for (const LengthUnit known : length_units()) units.emplace(unit_symbol(known), known);
+    for (const LengthUnit known : length_units()) {
+        units.emplace(unit_symbol(known), known);
+        units.emplace(wire::folded(v1::LengthUnit_Name(wire::to_proto(known))), known);
+    }
     add_choice<LengthUnit>(
         verb, name, units, [&unit](LengthUnit chosen) { unit = chosen; }, about)
         ->type_name("U");
@@ -88,7 +93,7 @@ void add_input(CLI::App& verb, Arguments& a, const char* what) {
 /// "quantised" alone is the usual number of bits.
 std::optional<EncodingChoice> encoding_in(const std::string& text) {
     const std::size_t colon = text.find(':');
-    const std::string name = text.substr(0, colon);
+    const std::string name = wire::folded(text.substr(0, colon));
     EncodingChoice choice;
     if (name == "float32") choice.encoding = RecordEncoding::kFloat32;
     if (name == "quantised") choice.encoding = RecordEncoding::kQuantised;
@@ -410,7 +415,7 @@ void add_kinds(CLI::App& verb, Arguments& a) {
     const std::map<std::string, Kind> kinds{
         {"through-hole", Kind::kThroughHole}, {"blind-hole", Kind::kBlindHole}, {"boss", Kind::kBoss}, {"fillet", Kind::kFillet}};
     const auto take = [kinds, &a](const std::vector<std::string>& names) {
-        for (const std::string& name : names) a.removal.kinds.push_back(kinds.at(name));
+        for (const std::string& name : names) a.removal.kinds.push_back(kinds.at(wire::folded(name)));
     };
     verb.add_option_function<std::vector<std::string>>(
             "--kind", take,

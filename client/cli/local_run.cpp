@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "cli/file_hash.h"
+#include "cli/input_check.h"
+#include "cli/message.h"
 #include "vsplit/base/execution_context.h"
 #include "vsplit/io/read_mesh.h"
 #include "vsplit/mesh/inspect.h"
@@ -33,6 +35,7 @@ Status check_arguments(const Arguments& a) {
         return Error{Cause::kInvalidOption, "--session, --representation and --keep need --server", "server"};
     }
     if (a.input.empty() || a.input == "-") return Error{Cause::kInvalidOption, "a file is needed to work on", "input"};
+    if (Status applies = check_reading(a); !applies) return applies;
     if (a.source_faces && !is_representation_file(a.input)) return one_resolution("source_faces");
     if (!a.against.empty() && a.faces && !is_representation_file(a.input)) return one_resolution("faces");
     return Done{};
@@ -46,7 +49,7 @@ struct Source {
 
 Expected<Source> read_source(const std::string& path, const Arguments& a) {
     Expected<ReadResult> read = read_mesh_file(path, {.weld = a.weld, .unit = a.unit});
-    if (!read) return read.error();
+    if (!read) return in_file(read.error(), path);
     const Expected<std::optional<RepairMode>> repair = wire::from_proto(a.repair);
     if (!repair) return repair.error();
     Expected<MeshReport> report = inspect_source(read->mesh, read->weld, *repair);
@@ -58,6 +61,7 @@ Expected<Source> read_source(const std::string& path, const Arguments& a) {
 struct Measured {
     TriangleMesh mesh;
     std::optional<LengthUnit> unit;
+    std::vector<Finding> findings{};  ///< of a mesh as it was read and repaired
 };
 
 /// A mesh, or a .vsplit file at a resolution.
@@ -69,7 +73,7 @@ Expected<Measured> read_any(const std::string& path, std::optional<std::uint32_t
     }
     Expected<Source> read = read_source(path, a);
     if (!read) return read.error();
-    return Measured{std::move(read->mesh), read->report.unit};
+    return Measured{std::move(read->mesh), read->report.unit, std::move(read->report.findings)};
 }
 
 using MethodFunction = std::function<Expected<MethodResult>(const TriangleMesh&, const MethodLimits&, const ExecutionContext&)>;
@@ -88,6 +92,7 @@ Expected<Outcome> run_method(const Arguments& a, const std::vector<Output>& outp
     if (!result) return result.error();
     result->unit = source->unit;
     v1::Representation made = wire::describe("", "", source->mesh.face_count(), *result, extent_of(result->mrr));
+    for (const Finding& finding : source->findings) *made.add_source_findings() = wire::to_proto(finding);
     TriangleMesh mesh = mesh_at(result->mrr, result->mrr.level_for(result->faces));
     StoredMrr stored{std::move(result->mrr), 0, ""};
     if (wants_representation(outputs)) {
@@ -129,6 +134,16 @@ Expected<Outcome> describe_mesh(const Arguments& a) {
     return Outcome{std::move(summary), std::move(read->mesh), {}};
 }
 
+/// Brings `against` to the unit of `mesh`; of which one says nothing is taken to be in that of the other. Returns what to say of
+/// that.
+std::string agree_on_unit(Measured& mesh, Measured& against, const Arguments& a) {
+    if (mesh.unit && against.unit) convert_lengths(against.mesh.positions, *against.unit, *mesh.unit);
+    if (mesh.unit.has_value() == against.unit.has_value()) return {};
+    if (mesh.unit) return assumed_unit_note(a.against, a.input, *mesh.unit);
+    mesh.unit = against.unit;
+    return assumed_unit_note(a.input, a.against, *mesh.unit);
+}
+
 Expected<Outcome> compare_meshes(const Arguments& a, ProgressBar& progress, const std::stop_token& stop) {
     Expected<Measured> mesh = read_any(a.input, a.faces, a);
     if (!mesh) return mesh.error();
@@ -136,13 +151,13 @@ Expected<Outcome> compare_meshes(const Arguments& a, ProgressBar& progress, cons
     other.unit.reset();  // what is stated is stated of IN
     Expected<Measured> against = read_any(a.against, {}, other);
     if (!against) return against.error();
-    if (mesh->unit && against->unit) convert_lengths(against->mesh.positions, *against->unit, *mesh->unit);
+    std::string note = agree_on_unit(*mesh, *against, a);
     ExecutionContext context([&](const Progress& p) { progress.show(p.stage, p.fraction, p.faces); }, a.threads);
     const StopCallback on_stop(stop, [&context] { context.cancel(); });
     Expected<Comparison> comparison = compare(mesh->mesh, against->mesh, a.error, context);
     if (!comparison) return comparison.error();
     comparison->unit = mesh->unit;
-    return Outcome{*comparison, std::move(mesh->mesh), {}};
+    return Outcome{*comparison, std::move(mesh->mesh), {}, {}, std::move(note)};
 }
 
 Expected<Outcome> find_features(const Arguments& a) {
@@ -162,7 +177,13 @@ Expected<Outcome> take_features(const Arguments& a, ProgressBar& progress, const
     if (!made) return made.error();
     MeshReport report = inspect(made->mesh);
     report.unit = mesh->unit;
-    return Outcome{wire::to_proto(*made, report), std::move(made->mesh), {}};
+    std::string note;
+    if (made->removed.empty()) {
+        const Expected<std::vector<ShapeFeature>> features = list_features(mesh->mesh, a.removal.search);
+        if (!features) return features.error();
+        note = nothing_removed_note(a.removal, wire::to_proto(*features, mesh->unit));
+    }
+    return Outcome{wire::to_proto(*made, report), std::move(made->mesh), {}, {}, std::move(note)};
 }
 
 Expected<Outcome> describe_representation(const Arguments& a) {
@@ -189,7 +210,7 @@ v1::Representation description_of(const StoredMrr& stored) {
 Expected<Outcome> load_representation(const std::string& path, std::optional<std::uint32_t> faces,
                                       std::optional<LengthUnit> unit) {
     Expected<StoredMrr> stored = load_mrr(path);
-    if (!stored) return stored.error();
+    if (!stored) return in_file(stored.error(), path);
     v1::Representation representation = description_of(*stored);
     const Expected<std::optional<LengthUnit>> agreed = agreed_unit(unit_of(representation), unit);
     if (!agreed) return agreed.error();

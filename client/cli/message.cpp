@@ -6,6 +6,7 @@
 
 #include "cli/number_text.h"
 #include "cli/outcome.h"
+#include "wire/features.h"
 
 namespace vsplit::cli {
 namespace {
@@ -62,6 +63,13 @@ std::string option_of(const std::string& field) {
     return found == options.end() ? std::string() : std::string(found->second);
 }
 
+/// The options that do what the engine says in its own words; empty where it says nothing of the kind.
+std::string_view help_of(Cause cause) {
+    if (cause == Cause::kNonManifold) return "--repair safe|full";
+    if (cause == Cause::kOpenMesh) return "--weld T, --repair full";
+    return {};
+}
+
 /// The first few of what breaks a bound.
 std::string named(const v1::Violation& violation) {
     constexpr int kNamed = 5;
@@ -79,7 +87,8 @@ std::string error_message(const Error& error) {
     if (error.cause == Cause::kCancelled) return "vsplit: cancelled\n";
     std::string text = "vsplit: " + std::string(cause_name(error.cause)) + ": " + error.message;
     const std::string option = option_of(error.field);
-    if (!option.empty()) text += " (" + option + ")";
+    const std::string_view help = option.empty() ? help_of(error.cause) : option;
+    if (!help.empty()) text.append(" (").append(help).append(")");
     return text + "\n";
 }
 
@@ -115,6 +124,37 @@ std::string nearest_note(std::uint32_t asked, const v1::Representation& made) {
     const std::string which = inside ? " is the nearest resolution found that keeps the bounds" : " is the nearest resolution";
     return "vsplit: note: " + grouped(asked) + " faces asked for, " + grouped(faces) + which + " (there are " +
            grouped(made.faces_min()) + " to " + grouped(made.faces_max()) + ")\n";
+}
+
+std::string finding_messages(const v1::Representation& made) {
+    std::string text;
+    for (const v1::Finding& finding : made.source_findings())
+        text += "vsplit: finding: " + finding.kind() + ": " + finding.message() + "\n";
+    return text;
+}
+
+std::string assumed_unit_note(const std::string& path, const std::string& other, LengthUnit unit) {
+    return "vsplit: note: the unit of " + path + " is not known; taken is " + std::string(unit_symbol(unit)) + ", that of " +
+           other + "\n";
+}
+
+std::string nothing_removed_note(const FeatureRemoval& removal, const v1::ListFeaturesResponse& features) {
+    if (!removal.max_diameter) return {};
+    std::uint32_t larger = 0;
+    double least = 0;
+    for (const v1::ShapeFeature& feature : features.features()) {
+        const bool asked = removal.kinds.empty() || std::any_of(removal.kinds.begin(), removal.kinds.end(), [&](auto kind) {
+                               return wire::to_proto(kind) == feature.kind();
+                           });
+        if (!asked || feature.diameter() <= *removal.max_diameter) continue;
+        least = larger++ == 0 ? feature.diameter() : std::min(least, feature.diameter());
+    }
+    const std::string unit = unit_suffix(unit_of(features));
+    const std::string kinds = removal.kinds.empty() ? "" : " of the kinds asked for";
+    std::string text = "vsplit: note: nothing is removed: no feature" + kinds + " has a diameter of " +
+                       figure(*removal.max_diameter) + unit + " or less; ";
+    text += larger == 0 ? "there are no larger ones either" : grouped(larger) + " larger: from " + figure(least) + unit + " on";
+    return text + "\n";
 }
 
 std::string on_chord_note(std::uint32_t edges) {

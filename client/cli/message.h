@@ -6,11 +6,12 @@
 
 #include "vsplit/base/error.h"
 #include "vsplit/mesh/length_unit.h"
+#include "vsplit/shapes/remove_features.h"
 #include "vsplit/v1/meshing.pb.h"
 
 namespace vsplit::cli {
 
-/// What stderr says of a failure: one line, with the option at fault where a field is named.
+/// What stderr says of a failure: one line, with the option at fault where a field is named, or options that help.
 [[nodiscard]] std::string error_message(const Error& error);
 
 /// A line for each bound that is broken: which, how often, the worst, why. Empty when all hold.
@@ -28,6 +29,15 @@ namespace vsplit::cli {
 /// A line that says which resolution was taken where the one asked for does not exist; empty where it does (counts go in steps of
 /// two faces).
 [[nodiscard]] std::string nearest_note(std::uint32_t asked, const v1::Representation& made);
+
+/// A line for each finding of what a method worked on, repairs too. Empty where there is none.
+[[nodiscard]] std::string finding_messages(const v1::Representation& made);
+
+/// A line that says that a mesh's lengths were taken to be in the unit of another.
+[[nodiscard]] std::string assumed_unit_note(const std::string& path, const std::string& other, LengthUnit unit);
+
+/// A line that says that no feature is as small as asked for, and which are larger; empty where no diameter was asked for.
+[[nodiscard]] std::string nothing_removed_note(const FeatureRemoval& removal, const v1::ListFeaturesResponse& features);
 
 /// A line that says how many sides of second-order elements are straight so that none is bad; empty for none.
 [[nodiscard]] std::string on_chord_note(std::uint32_t edges);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "cli/comparison.h"
@@ -24,6 +25,7 @@ struct Outcome {
     std::optional<TriangleMesh> mesh;       ///< what mesh files are written from; empty where they were downloaded as files
     std::optional<StoredMrr> stored;        ///< what a .vsplit file is written from; what the document tells is added
     std::optional<TriangleMesh> surface{};  ///< what was worked on, where it is there: mid-side nodes are put on it
+    std::string note{};                     ///< for stderr, a whole line: what was assumed, or why nothing was done
 };
 
 }  // namespace vsplit::cli

@@ -11,6 +11,8 @@
 #include "vsplit/io/write_mesh.h"
 #include "vsplit/mrr/mrr_file.h"
 #include "vsplit/mrr/progressive_mesh.h"
+#include "wire/convert.h"
+#include "wire/enum_value.h"
 #include "wire/json.h"
 
 namespace vsplit::cli {
@@ -20,6 +22,10 @@ constexpr const char* kRepresentationFormat = "vsplit";
 
 /// A computation of an hour must not end at a directory that was misspelt.
 Status check_place(const std::string& path) {
+    if (path == "-") {
+        return Error{Cause::kInvalidOption,
+                     "'-' is no file, and the standard output is for the report; accepted is a name, ./- too", "output"};
+    }
     std::error_code ignored;
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     if (!parent.empty() && !std::filesystem::is_directory(parent, ignored)) {
@@ -31,10 +37,19 @@ Status check_place(const std::string& path) {
     return Done{};
 }
 
+/// By any name that a server takes too.
+Expected<MeshFormat> format_called(const std::string& name) {
+    const auto* const value = wire::find_value(*v1::MeshFormat_descriptor(), name);
+    if (value == nullptr || value->number() == v1::MESH_FORMAT_UNSPECIFIED) return format_by_name(name);
+    const Expected<std::optional<MeshFormat>> format = wire::from_proto(static_cast<v1::MeshFormat>(value->number()));
+    if (!format) return format.error();
+    return **format;
+}
+
 Expected<Output> plan_output(const std::string& path, const std::string& format_name) {
-    if (format_name == kRepresentationFormat) return Output{path, {}};
+    if (wire::folded(format_name) == kRepresentationFormat) return Output{path, {}};
     if (format_name.empty() && is_representation_file(path)) return Output{path, {}};
-    Expected<MeshFormat> format = format_name.empty() ? format_by_extension(path) : format_by_name(format_name);
+    Expected<MeshFormat> format = format_name.empty() ? format_by_extension(path) : format_called(format_name);
     if (format) return Output{path, *format};
     Error error = format.error();
     error.message += "; a whole representation is written to .vsplit";
@@ -90,6 +105,9 @@ Status write_representation(const Outcome& outcome, const Output& output, const 
     v1::Representation description = *made;
     description.clear_id();
     description.clear_elapsed();
+    description.clear_source_findings();
+    description.clear_groups();  // who reads it has the mesh
+    description.clear_group_count();
     StoredMrr stored = *outcome.stored;
     stored.faces = description.faces();
     stored.description = wire::to_json(description);

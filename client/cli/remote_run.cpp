@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "cli/file_hash.h"
+#include "cli/input_check.h"
 #include "cli/local_run.h"
+#include "cli/message.h"
 #include "cli/remote_session.h"
 #include "cli/server_access.h"
 #include "vsplit/client/mesh_receiver.h"
@@ -32,6 +34,7 @@ Status check_input(const Arguments& a) {
 
 Status check_arguments(const Arguments& a) {
     if (Status valid = check_input(a); !valid) return valid;
+    if (Status applies = check_reading(a); !applies) return applies;
     if (!a.against.empty()) return invalid("two meshes are compared without a server; leave --server out", "against");
     const bool method = a.verb == Verb::kImprove || a.verb == Verb::kControl;
     const bool features = a.verb == Verb::kFeatures || a.verb == Verb::kRemoveFeatures;
@@ -91,7 +94,7 @@ private:
         request.set_session(session_.id());
         set_source(*request.mutable_source());
         *request.mutable_options() = wire::to_proto(arguments_.improve);
-        return received(client_.improve(request, handlers(), call_));
+        return received(with_findings(client_.improve(request, handlers(), call_)));
     }
 
     Expected<Outcome> control() {
@@ -100,7 +103,14 @@ private:
         request.set_session(session_.id());
         set_source(*request.mutable_source());
         *request.mutable_options() = wire::to_proto(arguments_.control);
-        return received(client_.control(request, handlers(), call_));
+        return received(with_findings(client_.control(request, handlers(), call_)));
+    }
+
+    /// What the session tells of the upload, where that was worked on.
+    Expected<v1::Representation> with_findings(Expected<v1::Representation> made) const {
+        if (made && arguments_.representation.empty() && !is_representation_file(arguments_.input))
+            *made->mutable_source_findings() = session_.session().source().findings();
+        return made;
     }
 
     v1::SetResolutionRequest resolution_request(const std::string& representation, std::uint32_t held,
@@ -190,11 +200,15 @@ private:
         return Outcome{std::move(summary), {}, {}};
     }
 
-    Expected<Outcome> features() {
+    v1::ListFeaturesRequest features_request() const {
         v1::ListFeaturesRequest request;
         request.set_session(session_.id());
         request.set_angle(arguments_.removal.search.angle);
-        Expected<v1::ListFeaturesResponse> list = client_.list_features(request, call_);
+        return request;
+    }
+
+    Expected<Outcome> features() {
+        Expected<v1::ListFeaturesResponse> list = client_.list_features(features_request(), call_);
         if (!list) return list.error();
         if (Status downloaded = download("", 0); !downloaded) return downloaded.error();
         return Outcome{*std::move(list), {}, {}};
@@ -210,8 +224,14 @@ private:
         for (const ShapeFeature::Kind kind : removal.kinds) request.add_kinds(wire::to_proto(kind));
         Expected<v1::RemoveFeaturesResponse> done = client_.remove_features(request, call_);
         if (!done) return done.error();
+        std::string note;
+        if (done->removed().empty()) {
+            const Expected<v1::ListFeaturesResponse> list = client_.list_features(features_request(), call_);
+            if (!list) return list.error();
+            note = nothing_removed_note(removal, *list);
+        }
         if (Status downloaded = download("", 0); !downloaded) return downloaded.error();
-        return Outcome{*std::move(done), {}, {}};
+        return Outcome{*std::move(done), {}, {}, {}, std::move(note)};
     }
 
     /// Of a representation, or of the upload where its id is empty.

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "cli/input_check.h"
 #include "cli/local_run.h"
 #include "cli/number_text.h"
 #include "vsplit/io/write_mesh.h"
@@ -61,7 +62,7 @@ Expected<RemoteSession> RemoteSession::open(client::MeshingClient& client, const
     if (!created) return created.error();
     RemoteSession session(client, *std::move(created), a.keep ? AtEnd::kTell : AtEnd::kDelete);
     Expected<v1::Session> uploaded = upload(client, session.id(), a, progress, stop);
-    if (!uploaded) return uploaded.error();
+    if (!uploaded) return in_file(uploaded.error(), a.input);
     session.session_ = *std::move(uploaded);
     return session;
 }

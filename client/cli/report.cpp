@@ -74,11 +74,14 @@ std::string worst_faces(const v1::Quality& q, const std::string& unit) {
 std::string profile_lines(const v1::ProfileReport& p) {
     std::string text = "\nby " + v1::QualityProfile_Name(p.profile()) + ": " + counted(p.passed(), "face passes", "faces pass") +
                        ", " + grouped(p.warned()) + " with a warning, " + grouped(p.failed()) + " fail\n";
-    text +=
-        left("figure", kNameWidth) + right("worst", 12) + right("face", 12) + right("warned", 12) + right("failed", 12) + "\n";
+    text += left("figure", kNameWidth) + right("worst", 12) + right("face", 12) + right("warning", 12) + right("faces", 12) +
+            right("failure", 12) + right("faces", 12) + "\n";
     for (const v1::CriterionReport& c : p.criteria()) {
+        const std::string beyond = c.upper() ? "> " : "< ";
+        const bool warns = c.warn_limit() != c.fail_limit();
         text += left(c.name(), kNameWidth) + right(figure(c.worst()), 12) + right(std::to_string(c.worst_face()), 12) +
-                right(grouped(c.warned()), 12) + right(grouped(c.failed()), 12) + "\n";
+                right(warns ? beyond + figure(c.warn_limit()) : "-", 12) + right(grouped(c.warned()), 12) +
+                right(beyond + figure(c.fail_limit()), 12) + right(grouped(c.failed()), 12) + "\n";
     }
     if (p.worst_faces().empty()) return text;
     text += "worst faces:";
@@ -89,6 +92,25 @@ std::string profile_lines(const v1::ProfileReport& p) {
 std::string details(const v1::Quality& q, bool detailed, const std::string& unit) {
     if (!detailed) return {};
     return histogram(q) + worst_faces(q, unit) + (q.has_profile() ? profile_lines(q.profile()) : std::string());
+}
+
+std::string group_text(const v1::FaceGroup& group) {
+    std::string regions;
+    for (const std::uint32_t region : group.regions()) regions += (regions.empty() ? "" : ", ") + std::to_string(region);
+    const std::string faces = counted(group.faces(), "face", "faces");
+    if (group.name().empty()) return "region " + regions + ": " + faces;
+    return group.name() + ": " + faces + (group.regions_size() == 1 ? ", region " : ", regions ") + regions;
+}
+
+/// A line for each of the first groups of a mesh.
+template <class Described>
+std::string group_lines(const Described& described) {
+    constexpr int kShown = 20;
+    std::string text;
+    for (int i = 0; i < std::min(kShown, described.groups_size()); ++i) text += line("group", group_text(described.groups(i)));
+    if (described.group_count() > kShown)
+        text += line("groups", grouped(described.group_count()) + " in all; --json lists up to 100");
+    return text;
 }
 
 std::string closed_or_why(const v1::MeshSummary& m) {
@@ -107,6 +129,7 @@ std::string text_of(const v1::MeshSummary& m, bool detailed, const std::string& 
     if (m.bounding_box().has_min())
         text += line("box", point(m.bounding_box().min()) + " to " + point(m.bounding_box().max()) + unit);
     text += quality_lines(m.quality(), unit);
+    text += group_lines(m);
     for (const v1::Finding& finding : m.findings()) text += line("finding", finding.kind() + ": " + finding.message());
     return text + details(m.quality(), detailed, unit);
 }
@@ -199,7 +222,7 @@ std::string text_of(const v1::Representation& r, bool detailed, const std::strin
     text += line("method", method_name(r.method()));
     text += line("faces", grouped(r.faces()) + " (" + grouped(r.faces_min()) + " to " + grouped(r.faces_max()) + " at hand)");
     text += option_lines(r, unit) + quality_lines(r.quality(), unit) + beyond_default_line(r) + bounds_line(r, unit) +
-            records_line(r.records());
+            records_line(r.records()) + group_lines(r);
     if (r.has_elapsed()) text += line("time", fixed(seconds(r.elapsed()), 2) + " s");
     for (const v1::Slivers& slivers : r.slivers()) text += line("slivers", slivers.message());
     return text + details(r.quality(), detailed, unit);

@@ -78,7 +78,10 @@ Status list_sessions(service::MeshingService& service, const service::Caller& ca
                      v1::ListSessionsResponse& response) {
     Expected<service::SessionPage> page = service.sessions().list(request.page_size(), request.page_token(), caller.owner);
     if (!page) return page.error();
-    for (const service::SessionSnapshot& session : page->sessions) *response.add_sessions() = to_proto(session);
+    for (const service::SessionSnapshot& session : page->sessions) {
+        v1::Session& entry = *response.add_sessions() = to_proto(session);
+        shorten_groups(entry);
+    }
     response.set_next_page_token(std::move(page->next_page_token));
     return Done{};
 }

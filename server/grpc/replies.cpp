@@ -25,6 +25,14 @@ void shorten_violations(v1::Representation& proto) {
 
 }  // namespace
 
+void shorten_groups(v1::Session& session) {
+    constexpr int kExamples = 10;
+    if (session.source().groups_size() > kExamples) {
+        auto& groups = *session.mutable_source()->mutable_groups();
+        groups.DeleteSubrange(kExamples, groups.size() - kExamples);
+    }
+}
+
 v1::Session to_proto(const service::SessionSnapshot& session) {
     v1::Session proto;
     proto.set_id(session.id);
@@ -50,6 +58,7 @@ v1::Representation to_proto(const service::Representation& representation) {
 
 v1::Representation to_proto(const service::Representation& representation, const service::Levels& levels, std::size_t level) {
     v1::Representation proto = to_proto(representation);
+    if (!levels.mrr().regions.empty()) wire::set_groups(list_groups(*levels.mesh(level)), proto);
     const std::uint32_t made_for = representation.figures().faces;
     if (levels.mrr().faces_at(level) == made_for) return proto;
     wire::describe_quality(*levels.quality(level), proto);

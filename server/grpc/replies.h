@@ -11,6 +11,9 @@ namespace vsplit::rpc {
 
 [[nodiscard]] v1::Session to_proto(const service::SessionSnapshot& session);
 
+/// What a list of sessions leaves out of each.
+void shorten_groups(v1::Session& session);
+
 /// At the resolution it was made for. O(1).
 [[nodiscard]] v1::Representation to_proto(const service::Representation& representation);
 

@@ -32,10 +32,13 @@ Error too_many_now() {
 // times the bytes of its text.
 constexpr std::uint64_t kBytesOfMessage = 320;
 constexpr std::uint64_t kBytesOfValue = 32;
+// The text, and the same with longer names: "m" becomes "METRE".
+constexpr std::uint64_t kTextsWhereRespelled = 3;
 
 // Holds the memory that will be taken. \return LIMIT_EXCEEDED.
 Status hold_what_is_made(const wire::JsonSize& size, std::uint64_t text_bytes, std::uint64_t limit, JsonShare& share) {
-    const std::uint64_t bytes = text_bytes + kBytesOfMessage * size.messages + kBytesOfValue * size.values;
+    const std::uint64_t texts = size.respelled ? kTextsWhereRespelled * text_bytes : text_bytes;
+    const std::uint64_t bytes = texts + kBytesOfMessage * size.messages + kBytesOfValue * size.values;
     if (bytes > limit) {
         return Error{Cause::kLimitExceeded,
                      "the JSON body has " + std::to_string(size.messages) + " objects and " + std::to_string(size.values) +

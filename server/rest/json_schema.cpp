@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "wire/enum_value.h"
+
 namespace vsplit::rest {
 namespace pb = google::protobuf;
 using Field = pb::FieldDescriptor;
@@ -75,7 +77,10 @@ Json JsonSchemas::reference(const pb::EnumDescriptor& type) {
         for (int i = 0; i < type.value_count(); ++i) {
             values.push_back(type.value(i)->name());
             const std::string said = comment_of(*type.value(i));
-            if (!said.empty()) text += "\n\n" + type.value(i)->name() + ": " + said;
+            const std::string symbol(wire::symbol_of(*type.value(i)));
+            if (said.empty() && symbol.empty()) continue;
+            text += "\n\n" + type.value(i)->name() + (symbol.empty() ? "" : " (in requests also " + symbol + ")");
+            if (!said.empty()) text += ": " + said;
         }
         schemas_[type.name()] = {{"type", "string"}, {"description", text}, {"enum", values}};
     }

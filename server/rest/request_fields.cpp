@@ -2,13 +2,13 @@
 
 #include <google/protobuf/descriptor.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <system_error>
 
+#include "wire/enum_value.h"
 #include "wire/field.h"
 #include "wire/json.h"
 #include "wire/utf8.h"
@@ -98,13 +98,8 @@ private:
     }
 
     Status enumerator() const {
-        std::string upper(text_);
-        std::transform(upper.begin(), upper.end(), upper.begin(), [](char c) {
-            if (c == '-') return '_';
-            return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-        });
         const pb::EnumDescriptor& type = *field_.enum_type();
-        const pb::EnumValueDescriptor* value = type.FindValueByName(upper);
+        const pb::EnumValueDescriptor* value = wire::find_value(type, text_);
         int number = 0;
         if (value == nullptr && parse(text_, number)) value = type.FindValueByNumber(number);
         if (value != nullptr) {

@@ -17,6 +17,7 @@
 
 #include "cli/file_hash.h"
 #include "tests/client/command.h"
+#include "tests/core/drilled_plate.h"
 #include "tests/core/meshes.h"
 #include "vsplit/io/read_mesh.h"
 #include "vsplit/io/write_mesh.h"
@@ -373,8 +374,97 @@ TEST_F(CommandLineTest, RepairMendsAndTells) {
     EXPECT_EQ(mended.findings(1).kind(), "FILLED_HOLE");
     const CommandResult improved = run({"improve", path, "--repair", "full", "--faces", "1000"});
     EXPECT_EQ(improved.exit_status, 0) << improved.err;
+    EXPECT_NE(improved.err.find("vsplit: finding: TURNED_FACE: 1 faces"), std::string::npos) << improved.err;
+    EXPECT_NE(improved.err.find("vsplit: finding: FILLED_HOLE: "), std::string::npos) << improved.err;
+    const auto told = json_of<v1::Representation>(
+        run({"control", path, "--repair", "FULL", "--json", "--subdivisions", "0", "-o", file("mended.vsplit")}));
+    ASSERT_EQ(told.source_findings_size(), 2);
+    EXPECT_EQ(told.source_findings(1).kind(), "FILLED_HOLE");
+    EXPECT_EQ(json_of<v1::Representation>(run({"info", file("mended.vsplit"), "--json"})).source_findings_size(), 0);
     EXPECT_NE(run({"info", path, "--repair", "safe"}).out.find("TURNED_FACE: 1 faces"), std::string::npos);
     EXPECT_NE(run({"info", path, "--repair", "none"}).out.find("INCONSISTENT_EDGE"), std::string::npos);
+}
+
+TEST_F(CommandLineTest, GroupsAreListedOfMeshesAndRepresentations) {
+    TriangleMesh mesh = test::cube_frame();
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) mesh.regions.push_back(f % 2 == 0 ? 3 : 8);
+    mesh.sets = {{"wall", {3}}};
+    const std::string path = mesh_file("groups.msh", mesh);
+    const auto summary = json_of<v1::MeshSummary>(run({"info", path, "--json"}));
+    ASSERT_EQ(summary.groups_size(), 2);
+    EXPECT_EQ(summary.group_count(), 2U);
+    EXPECT_EQ(summary.groups(0).name(), "wall");
+    EXPECT_EQ(summary.groups(0).faces(), mesh.face_count() / 2);
+    EXPECT_EQ(summary.groups(1).name(), "");
+    EXPECT_EQ(summary.groups(1).regions(0), 8U);
+    ASSERT_EQ(run({"improve", path, "--subdivide", "0.5", "--faces", "2000", "-o", file("groups.vsplit")}).exit_status, 0);
+    const auto finest = json_of<v1::Representation>(run({"info", file("groups.vsplit"), "--json"}));
+    ASSERT_EQ(finest.groups_size(), 2);
+    EXPECT_EQ(finest.groups(0).name(), "wall");
+    EXPECT_EQ(finest.groups(0).faces() + finest.groups(1).faces(), finest.faces());
+    const CommandResult told = run({"info", file("groups.vsplit")});
+    EXPECT_NE(told.out.find("group             wall: "), std::string::npos) << told.out;
+    const Expected<StoredMrr> stored = load_mrr(file("groups.vsplit"));
+    ASSERT_TRUE(stored);
+    EXPECT_EQ(stored->description.find("wall"), std::string::npos) << "the mesh tells it";
+}
+
+TEST_F(CommandLineTest, AnOpenMeshIsToldOfByAMethodToo) {
+    const std::string open = mesh_file("open.off", test::square(6));
+    const CommandResult improved = run({"improve", open, "--faces", "40"});
+    EXPECT_EQ(improved.exit_status, 0) << improved.err;
+    EXPECT_NE(improved.err.find("vsplit: finding: BOUNDARY_EDGE: 24 "), std::string::npos) << improved.err;
+}
+
+TEST_F(CommandLineTest, WhatIsWrongInAFileIsToldWithItsName) {
+    const std::string good = mesh_file("good.off", test::cube());
+    const std::string bad = file("bad.obj");
+    std::ofstream(bad) << "v 0 0 0\nv 1 0 x\n";
+    const std::string said = "vsplit: MALFORMED_INPUT: " + bad + ": line 2: ";
+    EXPECT_TRUE(run({"info", bad}).err.starts_with(said)) << run({"info", bad}).err;
+    EXPECT_TRUE(run({"improve", bad}).err.starts_with(said));
+    EXPECT_TRUE(run({"quality", good, "--against", bad}).err.starts_with(said));
+    std::ofstream(file("none.stl")) << "what is this";
+    const std::string unknown = run({"info", file("none.stl")}).err;
+    EXPECT_TRUE(unknown.starts_with("vsplit: UNKNOWN_FORMAT: " + file("none.stl") + ": ")) << unknown;
+    const std::string absent = run({"info", file("absent.stl")}).err;
+    EXPECT_EQ(absent.find(file("absent.stl")), absent.rfind(file("absent.stl"))) << "once: " << absent;
+}
+
+TEST_F(CommandLineTest, UnitsThatAreAssumedAreTold) {
+    const std::string one = mesh_file("one.off", test::cube());
+    const std::string other = mesh_file("other.off", test::cube());
+    const std::string inches = file("inches.3mf");
+    ASSERT_TRUE(write_mesh_file(test::cube(), MeshFormat::k3mf, inches, LengthUnit::kInch));
+    EXPECT_EQ(run({"quality", one, "--against", other}).err, "") << "nothing is assumed";
+    const std::string stated = run({"quality", one, "--unit", "mm", "--against", other}).err;
+    EXPECT_EQ(stated, "vsplit: note: the unit of " + other + " is not known; taken is mm, that of " + one + "\n");
+    EXPECT_EQ(run({"quality", one, "--unit", "MM", "--against", inches}).err, "") << "converted";
+    const CommandResult taken = run({"quality", one, "--against", inches});
+    EXPECT_EQ(taken.err, "vsplit: note: the unit of " + one + " is not known; taken is in, that of " + inches + "\n");
+    EXPECT_NE(taken.out.find("diagonal          1.73205 in\n"), std::string::npos) << taken.out;
+}
+
+TEST_F(CommandLineTest, NothingRemovedIsSaid) {
+    const std::string plate = mesh_file("plate.ply", test::drilled_plate(2, 10, 4, {{4, 4, 24}, {3, 2, 24}}));
+    const CommandResult none = run({"remove-features", plate, "--unit", "mm", "--max-diameter", "1"});
+    EXPECT_EQ(none.exit_status, 0);
+    EXPECT_NE(none.err.find("no feature has a diameter of 1 mm or less; 2 larger: from "), std::string::npos) << none.err;
+    EXPECT_EQ(run({"remove-features", plate, "--max-diameter", "9"}).err, "");
+}
+
+TEST_F(CommandLineTest, NamesAreThoseOfTheServerToo) {
+    const std::string cube = mesh_file("cube.off", test::cube());
+    for (const char* unit : {"mm", "MM", "MILLIMETRE", "millimetre"}) {
+        const CommandResult written = run({"info", cube, "--unit", unit, "--format", "THREE_MF", "-o", file("x")});
+        EXPECT_NE(written.out.find("unit              mm\n"), std::string::npos) << written.err;
+        EXPECT_TRUE(test::file_content(file("x")).starts_with("PK")) << unit;
+    }
+    EXPECT_EQ(run({"info", cube, "--repair", "FULL", "--format", "STL_ASCII", "-o", file("y")}).exit_status, 0);
+    EXPECT_TRUE(test::file_content(file("y")).starts_with("solid"));
+    EXPECT_EQ(run({"info", cube, "--format", "3", "-o", file("z")}).exit_status, 1);
+    EXPECT_NE(run({"improve", cube, "--subdivide", "0.3", "--mode", "Strict", "--json"}).out.find("\"STRICT\""),
+              std::string::npos);
 }
 
 TEST_F(CommandLineTest, QualityByAProfile) {
@@ -385,6 +475,12 @@ TEST_F(CommandLineTest, QualityByAProfile) {
     EXPECT_EQ(report.passed() + report.warned() + report.failed(), 156U);
     EXPECT_GE(report.failed(), 80U);
     EXPECT_NE(run({"quality", path, "--profile", "optistruct"}).out.find("by OPTISTRUCT: "), std::string::npos);
+    const CommandResult limits = run({"quality", path, "--profile", "OPTISTRUCT"});
+    EXPECT_NE(limits.out.find(" > 50 "), std::string::npos) << limits.out;
+    EXPECT_NE(limits.out.find(" > 500 "), std::string::npos) << limits.out;
+    EXPECT_NE(limits.out.find(" < 15 "), std::string::npos) << limits.out;
+    EXPECT_EQ(report.criteria(0).fail_limit(), 1.3);
+    EXPECT_TRUE(report.criteria(0).upper());
     EXPECT_NE(run({"quality", path, "--profile", "none"}).err.find("accepted is one of optistruct, stretch-02, verdict"),
               std::string::npos);
 }
@@ -430,7 +526,7 @@ TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
         {{"control", cube, "--min-size", "3", "--max-size", "2"}, "at most max_size, which is 2 (--min-size)"},
         {{"control", cube, "--subdivisions", "13"}, "(--subdivisions)"},
         {{"info", cube, "--weld", "-1"}, "(--weld)"},
-        {{"info", cube, "--unit", "yd"}, "accepted is one of cm, ft, in, m, mm, um"},
+        {{"info", cube, "--unit", "yd"}, "accepted is one of centimetre, cm, foot, ft, in, inch, m, metre"},
         {{"improve", cube, "--subdivide", "0.3", "-o", file("cube.ply"), "--output-unit", "m"}, "(--unit)"},
         {{"info", cube, "-o", file("cube.3mf")}, "a 3mf file says its unit"},
         {{"info", "--unit", "mm", "--session", "s", "--server", "127.0.0.1:1"}, "(--unit)"},
@@ -444,6 +540,13 @@ TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
         {{"resolution", cube}, "no .vsplit file"},
         {{"info", cube, "-o", file("cube.vsplit")}, "only a mesh"},
         {{"info", cube, "-o", file("cube.docx")}, "UNKNOWN_FORMAT"},
+        {{"info", cube, "-o", "-"}, "INVALID_OPTION: '-' is no file"},
+        {{"info", cube, "--format", "stl", "-o", "-"}, "(-o)"},
+        {{"info", file("none.vsplit"), "--repair", "full"}, "INVALID_OPTION: a .vsplit file holds a mesh as it was"},
+        {{"improve", file("none.vsplit"), "--weld", "0.1"}, "(--weld)"},
+        {{"quality", file("none.vsplit"), "--against", file("none.vsplit"), "--repair", "safe"}, "(--repair)"},
+        {{"info", "--repair", "none", "--session", "s", "--server", "127.0.0.1:1"}, "(--repair)"},
+        {{"improve", file("none.vsplit"), "--repair", "safe", "--server", "127.0.0.1:1"}, "(--repair)"},
         {{"info", cube, "-o", file("no/cube.stl")}, "NOT_FOUND"},
         {{"info", cube, "-o", directory_.path().string() + "/.stl/"}, "NOT_FOUND"},
         {{"info", cube, "--session", "s"}, "--server"},

@@ -122,6 +122,37 @@ TEST(JsonTest, SaysInItsOwnWordsWhatIsWrongAndWhere) {
     EXPECT_EQ(two.error().field, "error");
 }
 
+TEST(JsonTest, TakesEnumsByAnyOfTheirNames) {
+    v1::DownloadMeshRequest download;
+    ASSERT_TRUE(from_json(R"({"session": "the \"mm\" one", "unit": "mm", "format": "3MF"})", download));
+    EXPECT_EQ(download.session(), "the \"mm\" one");
+    EXPECT_EQ(download.unit(), v1::MILLIMETRE);
+    EXPECT_EQ(download.format(), v1::THREE_MF);
+    ASSERT_TRUE(from_json(R"({"format":"stl-ascii","unit":"INCH"})", download));
+    EXPECT_EQ(download.format(), v1::STL_ASCII);
+    EXPECT_EQ(download.unit(), v1::INCH);
+    ASSERT_TRUE(from_json(R"({"format": "ply_ASCII", "unit" : "\u0066t" })", download)) << "escaped";
+    EXPECT_EQ(download.format(), v1::PLY_ASCII);
+    EXPECT_EQ(download.unit(), v1::FOOT);
+    v1::RemoveFeaturesRequest removal;
+    ASSERT_TRUE(from_json(R"({"kinds": ["boss", 4, "through-hole", "FILLET"], "ids": [1, 2]})", removal));
+    ASSERT_EQ(removal.kinds_size(), 4);
+    EXPECT_EQ(removal.kinds(0), v1::ShapeFeature::BOSS);
+    EXPECT_EQ(removal.kinds(2), v1::ShapeFeature::THROUGH_HOLE);
+    EXPECT_EQ(removal.ids_size(), 2);
+    const Status yard = from_json(R"({"unit": "yd"})", download);
+    ASSERT_FALSE(yard);
+    EXPECT_NE(yard.error().message.find("MILLIMETRE (mm)"), std::string::npos) << yard.error().message;
+}
+
+TEST(JsonTest, SaysWhereATextIsRespelled) {
+    const auto size = [](const char* text) {
+        return check_json(text, *v1::CreateSessionRequest::descriptor(), UnknownFields::kRefused);
+    };
+    EXPECT_TRUE(size(R"({"unit": "mm"})")->respelled);
+    EXPECT_FALSE(size(R"({"unit": "MILLIMETRE", "format": 3, "repair": "2"})")->respelled);
+}
+
 TEST(JsonTest, TakesWhatProto3JsonTakes) {
     v1::ImproveRequest request;
     for (const char* text :

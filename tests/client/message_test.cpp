@@ -11,7 +11,10 @@ namespace {
 TEST(MessageTest, AnErrorNamesCauseAndOption) {
     EXPECT_EQ(error_message({Cause::kInvalidOption, "subdivision_size is -1", "subdivision_size"}),
               "vsplit: INVALID_OPTION: subdivision_size is -1 (--subdivide)\n");
-    EXPECT_EQ(error_message({Cause::kOpenMesh, "3 edges have one face", ""}), "vsplit: OPEN_MESH: 3 edges have one face\n");
+    EXPECT_EQ(error_message({Cause::kOpenMesh, "3 edges have one face", ""}),
+              "vsplit: OPEN_MESH: 3 edges have one face (--weld T, --repair full)\n");
+    EXPECT_EQ(error_message({Cause::kNonManifold, "2 edges have three faces", ""}),
+              "vsplit: NON_MANIFOLD: 2 edges have three faces (--repair safe|full)\n");
     EXPECT_EQ(error_message({Cause::kNotFound, "none", "page_token"}), "vsplit: NOT_FOUND: none\n");
     EXPECT_EQ(error_message({Cause::kCancelled, "whatever", ""}), "vsplit: cancelled\n");
 }
@@ -36,6 +39,28 @@ TEST(MessageTest, ABrokenBoundIsToldWithCountWorstAndReason) {
     EXPECT_EQ(violation_messages(made),
               "vsplit: bound not met: min_stretch 0.2: 1 face (7), worst 0.125; no collapse helps\n"
               "vsplit: bound not met: max_valence 8: 1,200 vertices (3, 5, 8, 13, 21, ...), worst 11; flips are not offered\n");
+}
+
+TEST(MessageTest, NothingRemovedSaysWhatIsLarger) {
+    v1::ListFeaturesResponse features;
+    features.set_unit(v1::MILLIMETRE);
+    FeatureRemoval removal;
+    EXPECT_EQ(nothing_removed_note(removal, features), "") << "ids were asked for";
+    removal.max_diameter = 5;
+    EXPECT_EQ(nothing_removed_note(removal, features),
+              "vsplit: note: nothing is removed: no feature has a diameter of 5 mm or less; there are no larger ones either\n");
+    for (const double diameter : {9.0, 6.5}) {
+        v1::ShapeFeature& hole = *features.add_features();
+        hole.set_kind(v1::ShapeFeature::BLIND_HOLE);
+        hole.set_diameter(diameter);
+    }
+    removal.kinds = {ShapeFeature::Kind::kBoss, ShapeFeature::Kind::kBlindHole};
+    EXPECT_EQ(
+        nothing_removed_note(removal, features),
+        "vsplit: note: nothing is removed: no feature of the kinds asked for has a diameter of 5 mm or less; 2 larger: from "
+        "6.5 mm on\n");
+    removal.kinds = {ShapeFeature::Kind::kBoss};
+    EXPECT_NE(nothing_removed_note(removal, features).find("no larger"), std::string::npos);
 }
 
 TEST(MessageTest, TheNearestResolutionIsToldOnlyWhereItIsAnother) {

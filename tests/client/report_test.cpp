@@ -22,6 +22,23 @@ TEST(ReportTest, TellsWhatAMeshIs) {
     EXPECT_FALSE(has(text, "worst face"));
 }
 
+TEST(ReportTest, ListsTheFirstGroups) {
+    TriangleMesh mesh = test::cube();
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) mesh.regions.push_back(f / 4);
+    mesh.sets = {{"inlet", {0, 1}}, {"wall", {0}}};
+    const std::string text = report(wire::to_proto(inspect(mesh)), false);
+    EXPECT_TRUE(has(text, "group             inlet: 8 faces, regions 0, 1\n")) << text;
+    EXPECT_TRUE(has(text, "group             wall: 4 faces, region 0\n")) << text;
+    EXPECT_TRUE(has(text, "group             region 2: 4 faces\n")) << text;
+    EXPECT_FALSE(has(text, "in all")) << text;
+    mesh = test::icosphere(2);
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) mesh.regions.push_back(f);
+    const std::string many = report(wire::to_proto(inspect(mesh)), false);
+    EXPECT_TRUE(has(many, "region 19: 1 face\n")) << many;
+    EXPECT_FALSE(has(many, "region 20:")) << many;
+    EXPECT_TRUE(has(many, "320 in all")) << many;
+}
+
 TEST(ReportTest, EveryLengthHasItsUnit) {
     const TriangleMesh mesh = test::sliver_cylinder(12, 10);
     MeshReport measured = inspect(mesh);

@@ -2,6 +2,7 @@
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): kill is POSIX
 
 #include <chrono>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -124,6 +125,30 @@ TEST_F(ServerCommandTest, FeaturesAreWhatTheyAreLocally) {
     const CommandResult refused = remotely({"remove-features", mesh, "--id", "9"});
     EXPECT_EQ(refused.exit_status, 1);
     EXPECT_NE(refused.err.find("--id"), std::string::npos) << refused.err;
+    const std::vector<std::string> small{"remove-features", mesh, "--max-diameter", "1"};
+    EXPECT_EQ(remotely(small).err, locally(small).err);
+    EXPECT_NE(remotely(small).err.find("2 larger"), std::string::npos);
+}
+
+TEST_F(ServerCommandTest, FindingsAndGroupsAreWhatTheyAreLocally) {
+    TriangleMesh mesh = test::cube_frame();
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) mesh.regions.push_back(f < 8 ? 3 : 8);
+    mesh.sets = {{"wall", {3}}};
+    std::swap(mesh.faces[7][0], mesh.faces[7][1]);
+    const std::string input = mesh_file("groups.msh", mesh);
+    const std::vector<std::string> described{"info", input, "--repair", "safe", "--json"};
+    EXPECT_EQ(remotely(described).out, locally(described).out);
+    EXPECT_NE(remotely(described).out.find("\"wall\""), std::string::npos);
+    const std::vector<std::string> improve{"improve", input,     "--repair", "safe",  "--subdivide",
+                                           "0.3",     "--faces", "1000",     "--json"};
+    const CommandResult here = locally(improve);
+    const CommandResult there = remotely(improve);
+    EXPECT_NE(there.err.find("vsplit: finding: TURNED_FACE"), std::string::npos) << there.err;
+    EXPECT_EQ(there.err, here.err);
+    EXPECT_EQ(comparable(representation_of(there)), comparable(representation_of(here)));
+    EXPECT_GT(representation_of(there).source_findings_size(), 0);
+    std::ofstream(file("bad.obj")) << "v 0 0 0\nv 1 0 x\n";
+    EXPECT_EQ(remotely({"info", file("bad.obj")}).err, locally({"info", file("bad.obj")}).err);
 }
 
 TEST_F(ServerCommandTest, OneSessionServesSeveralCommands) {

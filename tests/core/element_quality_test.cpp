@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
 
 #include "tests/core/meshes.h"
 
@@ -61,7 +64,37 @@ TEST(ElementQualityTest, ProfilesCountEachFaceOnce) {
     EXPECT_EQ(slivers.criteria[0].name, "edge_ratio");
     EXPECT_EQ(slivers.criteria[0].warned, 80U);
     EXPECT_GE(slivers.failed, 80U);
+    EXPECT_TRUE(slivers.criteria[0].upper);
+    EXPECT_EQ(slivers.criteria[0].warn_limit, 50);
+    EXPECT_EQ(slivers.criteria[0].fail_limit, 500);
+    EXPECT_FALSE(slivers.criteria[2].upper);
+    EXPECT_EQ(slivers.criteria[2].warn_limit, 15);
+    EXPECT_EQ(slivers.criteria[2].fail_limit, 3);
     EXPECT_EQ(profile_by_name("nastran").error().field, "profile");
+}
+
+/// "< 15", or "-" where there are no warnings.
+std::string limit_text(const CriterionReport& criterion, double limit) {
+    std::ostringstream text;
+    text << (criterion.upper ? "> " : "< ") << limit;
+    return text.str();
+}
+
+TEST(ElementQualityTest, TheTableInTheDocumentsIsRight) {
+    std::ifstream file(test::data_file("../../docs/elements.md"));
+    const std::string table((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    for (const QualityProfile profile : {QualityProfile::kStretch02, QualityProfile::kVerdict, QualityProfile::kOptistruct}) {
+        std::size_t at = table.find("\n| `" + std::string(profile_name(profile)) + '`');
+        ASSERT_NE(at, std::string::npos) << profile_name(profile);
+        for (const CriterionReport& criterion : check_profile(test::cube(), profile, 0).criteria) {
+            const std::string warning =
+                criterion.warn_limit == criterion.fail_limit ? "-" : limit_text(criterion, criterion.warn_limit);
+            const std::string row =
+                "| `" + criterion.name + "` | " + warning + " | " + limit_text(criterion, criterion.fail_limit) + " |\n";
+            at = table.find(row, at);
+            ASSERT_NE(at, std::string::npos) << profile_name(profile) << " lacks " << row;
+        }
+    }
 }
 
 }  // namespace

@@ -266,6 +266,81 @@ TEST(Format3mfTest, BrokenModelsAreNamedWithTheirLine) {
     EXPECT_EQ(error_of(file(object(1, "", ""), item)).cause, Cause::kEmptyInput);
 }
 
+/// The archive with the first byte of `from` changed.
+std::string with_changed_byte(std::string archive, const std::string& from, char to) {
+    archive[archive.find(from)] = to;
+    return archive;
+}
+
+/// An archive of one file that is not packed, with the checksum and size it is said to have.
+std::string stored_archive(const std::string& name, const std::string& text, std::uint32_t crc, std::uint32_t size) {
+    const auto put = [](std::string& to, std::uint32_t value, int bytes) {
+        for (int i = 0; i < bytes; ++i) to += static_cast<char>(value >> (8 * i) & 0xFFU);
+    };
+    std::string common;  // what header and table have both
+    for (const std::uint32_t value : {20U, 0U, 0U, 0U, 0U}) put(common, value, 2);
+    put(common, crc, 4);
+    put(common, size, 4);
+    put(common, size, 4);
+    put(common, static_cast<std::uint32_t>(name.size()), 2);
+    put(common, 0, 2);
+    std::string archive = "PK\x03\x04" + common + name + text;
+    const auto table = static_cast<std::uint32_t>(archive.size());
+    archive += "PK\x01\x02";
+    put(archive, 20, 2);
+    archive += common + std::string(14, '\0') + name;
+    const auto bytes = static_cast<std::uint32_t>(archive.size()) - table;
+    archive += "PK\x05\x06" + std::string(4, '\0');
+    put(archive, 1, 2);
+    put(archive, 1, 2);
+    put(archive, bytes, 4);
+    put(archive, table, 4);
+    return archive + std::string(2, '\0');
+}
+
+TEST(Format3mfTest, DamageIsSeenBehindTheLastTagToo) {
+    const std::string text = model(object(1, ""), "<item objectid=\"1\"/>");
+    const std::string deflated = archive_of({{"x", text}});
+    const std::uint32_t crc = ZipReader::open(std::as_bytes(std::span(deflated)))->find("x")->crc;
+    const auto size = static_cast<std::uint32_t>(text.size());
+    const std::string good = stored_archive("3D/3dmodel.model", text, crc, size);
+    EXPECT_EQ(must_read(good).mesh.face_count(), 4U);
+    const Error changed = error_of(with_changed_byte(good, "1\" y=\"0\" z=\"0\"", '7'));
+    EXPECT_EQ(changed.cause, Cause::kMalformedInput);
+    EXPECT_THAT(changed.message, HasSubstr("does not have its checksum"));
+    const std::string links =
+        "<Relationships><Relationship Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\" "
+        "Target=\"/3D/3dmodel.model\"/></Relationships>";
+    EXPECT_THAT(error_of(stored_archive("_rels/.rels", links, crc, static_cast<std::uint32_t>(links.size()))).message,
+                HasSubstr("does not have its checksum"));
+}
+
+TEST(Format3mfTest, TheCoreMayHaveAPrefix) {
+    const std::string plain = model(object(1, ""), "<item objectid=\"1\"/>");
+    std::string prefixed;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        prefixed += plain[i];
+        if (plain[i] != '<' || plain[i + 1] == '?') continue;
+        if (plain[i + 1] == '/') prefixed += plain[++i];
+        prefixed += "m:";
+    }
+    prefixed.replace(prefixed.find("xmlns="), 6, "xmlns:m=");
+    EXPECT_EQ(must_read(archive_of({{"3D/3dmodel.model", prefixed}})).mesh,
+              must_read(file(object(1, ""), "<item objectid=\"1\"/>")).mesh);
+    prefixed.replace(prefixed.find("core/2015"), 9, "gone/2015");
+    EXPECT_EQ(error_of(archive_of({{"3D/3dmodel.model", prefixed}})).cause, Cause::kUnknownFormat);
+}
+
+TEST(Format3mfTest, XmlThatIsNotWellFormedIsRefused) {
+    std::string text = model(object(1, ""), "<item objectid=\"1\"/>");
+    text.replace(text.find("</vertices>"), 11, "</vertexes>");
+    std::erase(text, '\n');
+    const std::string column = std::to_string(text.find("</vertexes>") + 1);
+    EXPECT_THAT(
+        error_of(archive_of({{"3D/3dmodel.model", text}})).message,
+        HasSubstr("line 1, column " + column + ": expected '</vertices>', the end of the tag of line 1, found '</vertexes>'"));
+}
+
 TEST(Format3mfTest, BombsAreRefusedBeforeMemoryIsTaken) {
     // Each object is two of the one before: 2^40 tetrahedra in a few KiB.
     std::string objects = object(1, "");

@@ -106,9 +106,65 @@ TEST(ReadMeshTest, ObjCornersOfAllKinds) {
 
 TEST(ReadMeshTest, ObjSkipsWhatIsNoGeometry) {
     const std::string text =
-        "# comment\r\nmtllib a.mtl\r\no part\r\ng group\r\nv 0 0 0\r\nvn 0 0 1\r\nvt 0 0\r\nusemtl steel\r\ns off\r\nv 1 0 0\r\n"
-        "v 0 1 0\r\nl 1 2\r\np 1\r\nvendor_extension 1 2 3\r\nf 1/1/1 2/1/1 3/1/1\r\n";
+        "# comment\r\nmtllib a.mtl\r\no part\r\ng\r\nv 0 0 0\r\nvn 0 0 1\r\nvt 0 0\r\nusemtl steel\r\ns off\r\nv 1 0 0\r\n"
+        "v 0 1 0\r\nl 1 2\r\np 1\r\nusemap off\r\nmtllib\r\nbevel on\r\nlod 3\r\nshadow_obj a\r\ncstype bezier\r\ncurv 0 1 1 "
+        "2\r\nend\r\nf 1/1/1 2/1/1 3/1/1\r\n";
     EXPECT_EQ(must_read(text).mesh, triangle());
+}
+
+TEST(ReadMeshTest, ObjNeverDropsSurfaceInSilence) {
+    const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    expect_error(read(text + "hello world\n"), Cause::kMalformedInput,
+                 "line 5: expected a keyword such as 'v' or 'f', found 'hello'");
+    expect_error(read(text + "F 1 2 3\n"), Cause::kMalformedInput, "line 5: expected a keyword");
+    for (const std::string word : {"surf", "call", "csh", "bsp", "bzp"})
+        expect_error(read(text + word + " other.obj\n"), Cause::kUnsupported, "line 5: '" + word + "' is not read");
+}
+
+TEST(ReadMeshTest, ObjGroupsOverlapAndMayBeAlone) {
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
+    const TriangleMesh two = must_read(vertices + "g a all\nf 1 2 3\ng all \\\n b # both\nf 2 4 3\ng none_of_them\n").mesh;
+    EXPECT_EQ(two.regions, (std::vector<std::uint32_t>{1, 2}));
+    EXPECT_EQ(two.sets, (std::vector<FaceSet>{{"a", {1}}, {"all", {1, 2}}, {"b", {2}}}));
+    const TriangleMesh one = must_read(vertices + "g a\nf 1 2 3\nf 2 4 3\n").mesh;
+    EXPECT_EQ(one.regions, (std::vector<std::uint32_t>{1, 1}));
+    EXPECT_EQ(one.sets, (std::vector<FaceSet>{{"a", {1}}}));
+    EXPECT_TRUE(must_read(vertices + "g\nf 1 2 3\nf 2 4 3\n").mesh.regions.empty());
+}
+
+TEST(ReadMeshTest, PlyRegionsOfAnyTypeAndNoStrips) {
+    const auto ply = [](const std::string& type, const std::string& region) {
+        return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+               "element face 1\nproperty list uchar int vertex_index\nproperty " +
+               type + " region\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 " + region + "\n";
+    };
+    EXPECT_EQ(must_read(ply("float", "7")).mesh.regions, (std::vector<std::uint32_t>{7}));
+    EXPECT_EQ(must_read(ply("double", "4294967294")).mesh.regions, (std::vector<std::uint32_t>{4294967294}));
+    expect_error(read(ply("float", "0.5")), Cause::kMalformedInput,
+                 "line 14: expected a region, an integer from 0 to 4294967294, found 0.5");
+    expect_error(read(ply("uint", "4294967295")), Cause::kMalformedInput, "line 14: expected a region");
+    expect_error(read(ply("int", "-1")), Cause::kMalformedInput, "line 14: expected a region");
+    std::string strips = ply("int", "1");
+    strips.replace(strips.find("end_header"), 10, "element tristrips 1\nproperty list int int vertex_indices\nend_header");
+    expect_error(read(strips + "3 0 1 2\n"), Cause::kUnsupported, "line 10: triangle strips are not read");
+}
+
+TEST(ReadMeshTest, ConcavePolygonsDoNotFold) {
+    const std::string rows = "0 0 0\n4 0 0\n4 4 0\n2 1 0\n0 4 0\n";
+    EXPECT_DOUBLE_EQ(surface_area(must_read("OFF\n5 1 0\n" + rows + "5 2 3 4 0 1\n").mesh), 10);
+    const std::string obj = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\n";
+    EXPECT_DOUBLE_EQ(surface_area(must_read(obj + "f 3 4 5 1 2\n").mesh), 10);
+    EXPECT_DOUBLE_EQ(surface_area(must_read("f 3 4 5 1 2\n" + obj).mesh), 10) << "before its vertices";
+    const std::string vertices = "element vertex 5\nproperty float x\nproperty float y\nproperty float z\n";
+    const std::string faces = "element face 1\nproperty list uchar int vertex_index\n";
+    const std::string ply = "ply\nformat ascii 1.0\n";
+    EXPECT_DOUBLE_EQ(surface_area(must_read(ply + vertices + faces + "end_header\n" + rows + "5 2 3 4 0 1\n").mesh), 10);
+    EXPECT_DOUBLE_EQ(surface_area(must_read(ply + faces + vertices + "end_header\n5 2 3 4 0 1\n" + rows).mesh), 10);
+}
+
+TEST(ReadMeshTest, OffWithoutItsKeyword) {
+    const std::string text = "# counts\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    EXPECT_EQ(must_read(text, {.format = MeshFormat::kOff}).mesh, triangle());
 }
 
 TEST(ReadMeshTest, ObjFaceBeforeItsVertices) {
@@ -231,7 +287,7 @@ TEST(ReadMeshTest, FormatAskedForMustBeTheOneThereIs) {
               MeshFormat::kPlyBinary);
     // What cannot be told is read as asked.
     expect_error(read("short", {.format = MeshFormat::kStlBinary}), Cause::kTruncatedInput, "byte 5");
-    EXPECT_EQ(must_read("xyz 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {.format = MeshFormat::kObj}).mesh, triangle());
+    EXPECT_EQ(must_read("bevel on\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", {.format = MeshFormat::kObj}).mesh, triangle());
 }
 
 TEST(ReadMeshTest, FaceLimitHoldsInEveryFormat) {

@@ -109,6 +109,53 @@ TEST(RepairMeshTest, WallsOfNoThicknessGoAndSheetsStay) {
     EXPECT_EQ(count(single.findings, Kind::kDroppedDuplicate), faces);
 }
 
+TEST(RepairMeshTest, ACopyThatLooksTheOtherWayTearsNoHole) {
+    const TriangleMesh good = test::icosphere(2);
+    for (const std::uint32_t copies : {1U, 7U, 40U}) {
+        for (const bool first : {false, true}) {
+            TriangleMesh mesh = good;
+            for (std::uint32_t f = 0; f < copies; ++f) {
+                const Triangle t = good.faces[f];
+                mesh.faces.insert(first ? mesh.faces.begin() : mesh.faces.end(), {t[0], t[2], t[1]});
+            }
+            for (const RepairOptions& options : {kSafe, kFull}) {
+                const RepairedMesh whole = repaired(mesh, options);
+                EXPECT_TRUE(inspect(whole.mesh).closed) << copies;
+                EXPECT_EQ(whole.mesh.face_count(), good.face_count());
+                EXPECT_EQ(count(whole.findings, Kind::kDroppedDuplicate), copies);
+                const std::uint32_t turned = count(whole.findings, Kind::kTurnedFace);
+                EXPECT_EQ(turned, copies == 1 ? 0U : turned) << "the copy that agrees was kept";
+                EXPECT_NEAR(enclosed_volume(whole.mesh), enclosed_volume(good), 1e-12);
+            }
+        }
+    }
+    // On an open surface too, at its border; and a fin on a closed one still goes.
+    TriangleMesh sheet = test::square(3);
+    const Triangle t = sheet.faces[0];
+    sheet.faces.push_back({t[0], t[2], t[1]});
+    EXPECT_EQ(repaired(sheet, kSafe).mesh, test::square(3));
+    TriangleMesh finned = good;
+    const Triangle base = finned.faces[5];
+    finned.positions.push_back(2 * finned.positions[base[0]]);
+    finned.faces.push_back({base[0], base[1], good.vertex_count()});
+    finned.faces.push_back({base[1], base[0], good.vertex_count()});
+    EXPECT_EQ(repaired(finned, kSafe).mesh, good);
+}
+
+TEST(RepairMeshTest, AFaceWithoutAreaThatHangsOnABodyGoes) {
+    TriangleMesh mesh = test::cube();
+    const Triangle t = mesh.faces[0];
+    mesh.positions.push_back((mesh.positions[t[0]] + mesh.positions[t[1]]) / 2);
+    mesh.positions.push_back((mesh.positions[t[0]] + mesh.positions[8]) / 2);
+    mesh.faces.push_back({t[0], 8, t[1]});
+    mesh.faces.push_back({t[0], 9, 8});  // hangs on the one that hangs
+    for (const RepairOptions& options : {kSafe, kFull}) {
+        const RepairedMesh clean = repaired(mesh, options);
+        EXPECT_EQ(clean.mesh, test::cube());
+        EXPECT_EQ(count(clean.findings, Kind::kFlattenedFace), 2U);
+    }
+}
+
 TEST(RepairMeshTest, FacesAreTurnedToAgree) {
     TriangleMesh mesh = test::torus(20, 10);
     test::Random random(1);

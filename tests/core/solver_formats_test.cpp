@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <string>
 
 #include "tests/core/meshes.h"
@@ -67,6 +68,112 @@ TEST(SolverFormatsTest, SetsComeBackFromFormatsThatNameThem) {
     for (const MeshFormat format : {MeshFormat::kMsh2, MeshFormat::kMsh2Ascii, MeshFormat::kBdf}) {
         EXPECT_EQ(members(must_read(write_mesh(mesh, format))), parts) << format_name(format);
     }
+}
+
+TEST(SolverFormatsTest, OverlappingPhysicalGroupsOfGmshKeepTheirFacesApart) {
+    // As Gmsh writes it: "all" = {1, 2}, "top" = {2}; the surface of both has two tags in 4.1, its elements come twice in 2.2.
+    const std::string start = "$PhysicalNames\n2\n2 1 \"all\"\n2 2 \"top\"\n$EndPhysicalNames\n";
+    const std::string msh4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + start +
+                             "$Entities\n0 0 2 0\n1 0 0 0 1 1 0 1 1 0\n2 0 0 0 1 1 0 2 1 2 0\n$EndEntities\n"
+                             "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n"
+                             "$Elements\n2 2 1 2\n2 1 2 1\n1 1 2 3\n2 2 2 1\n2 1 3 4\n$EndElements\n";
+    const std::string msh2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + start +
+                             "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+                             "$Elements\n3\n1 2 2 1 1 1 2 3\n2 2 2 1 2 1 3 4\n3 2 2 2 2 1 3 4\n$EndElements\n";
+    const std::map<std::string, std::vector<std::uint32_t>> expected{{"all", {0, 1}}, {"top", {1}}};
+    for (const std::string& bytes : {msh4, msh2}) {
+        const TriangleMesh mesh = must_read(bytes);
+        EXPECT_EQ(mesh.face_count(), 2U);
+        EXPECT_EQ(mesh.regions, (std::vector<std::uint32_t>{1, 2}));
+        EXPECT_EQ(members(mesh), expected);
+    }
+}
+
+TEST(SolverFormatsTest, AGroupOfManySurfacesIsOneRegion) {
+    std::string bytes =
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 13 \"SKIN\"\n$EndPhysicalNames\n"
+        "$Entities\n0 0 2 0\n1 0 0 0 1 1 0 1 13 0\n2 0 0 0 1 1 0 1 13 0\n$EndEntities\n"
+        "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n"
+        "$Elements\n2 2 1 2\n2 1 2 1\n1 1 2 3\n2 2 2 1\n2 1 3 4\n$EndElements\n";
+    const TriangleMesh mesh = must_read(bytes);
+    ASSERT_EQ(mesh.sets.size(), 1U);
+    EXPECT_EQ(mesh.sets[0].regions, std::vector<std::uint32_t>{13});
+    EXPECT_NE(write_mesh(mesh, MeshFormat::kBdf).find("\"SKIN\""), std::string::npos);
+    EXPECT_NE(write_mesh(mesh, MeshFormat::kMsh2).find("2 13 \"SKIN\""), std::string::npos);
+}
+
+TEST(SolverFormatsTest, NumbersOfInputDecksFitWhatCalculixReads) {
+    Random random(20);
+    TriangleMesh mesh = torus(12, 6);
+    for (Vec3& p : mesh.positions) {
+        for (int axis = 0; axis < 3; ++axis) p[axis] *= std::pow(10.0, random.uniform(-12, 12));
+    }
+    const std::string deck = write_mesh(mesh, MeshFormat::kInp);
+    std::istringstream lines(deck.substr(deck.find("*NODE"), deck.find("*ELEMENT") - deck.find("*NODE")));
+    std::size_t longest = 0;
+    for (std::string number; std::getline(lines, number, ' ');) {
+        longest = std::max(longest, number.substr(0, number.find_first_of(",\n")).size());
+    }
+    EXPECT_LE(longest, 20U);
+    const TriangleMesh same = must_read(deck);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(same.positions[v][axis], mesh.positions[v][axis], 1e-12 * std::abs(mesh.positions[v][axis]));
+    }
+}
+
+TEST(SolverFormatsTest, SetsThatHoldEachOtherInALongChainEnd) {
+    std::string chain = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n*ELSET, ELSET=a0\n1\n";
+    const int sets = 5000;
+    for (int i = 1; i <= sets; ++i) chain += "*ELSET, ELSET=a" + std::to_string(i) + "\na" + std::to_string(i - 1) + "\n";
+    EXPECT_EQ(must_read(chain).sets.size(), sets + 1U);
+    for (int i = sets + 1; i <= 20000; ++i) chain += "*ELSET, ELSET=a" + std::to_string(i) + "\na" + std::to_string(i - 1) + "\n";
+    const Expected<ReadResult> refused = read(chain);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().cause, Cause::kLimitExceeded);
+    const TriangleMesh ring = must_read(
+        "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n"
+        "*ELSET, ELSET=a\nb, 1\n*ELSET, ELSET=b\na\n");
+    EXPECT_EQ(members(ring), (std::map<std::string, std::vector<std::uint32_t>>{{"a", {0}}, {"b", {0}}}));
+}
+
+TEST(SolverFormatsTest, LargeRegionsAreNumberedAnewWhereAFormatHasNoRoom) {
+    TriangleMesh mesh = grouped_torus();
+    for (std::uint32_t& region : mesh.regions) region += 4'000'000'000U;
+    for (FaceSet& set : mesh.sets) {
+        for (std::uint32_t& region : set.regions) region += 4'000'000'000U;
+    }
+    const std::vector<std::uint32_t> anew = grouped_torus().regions;
+    for (const MeshFormat format : {MeshFormat::kMsh, MeshFormat::kMsh2, MeshFormat::kBdf}) {
+        const TriangleMesh same = must_read(write_mesh(mesh, format));
+        EXPECT_EQ(same.regions, anew) << format_name(format);
+    }
+    EXPECT_EQ(must_read(write_mesh(mesh, MeshFormat::kStlBinary)).regions, anew);
+    EXPECT_EQ(must_read(write_mesh(mesh, MeshFormat::kInp)).regions, anew);  // by its sets
+}
+
+TEST(SolverFormatsTest, NamesOfSetsFitSolvers) {
+    TriangleMesh mesh = grouped_torus();
+    mesh.sets = {{std::string(95, 'x'), {1}}, {std::string(95, 'x') + "y", {2}}, {"Eall", {3}}, {"gone", {7}}};
+    const std::string deck = write_mesh(mesh, MeshFormat::kInp);
+    std::istringstream lines(deck);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t name = line.find("SET=");
+        if (line.starts_with("*") && name != std::string::npos) {
+            EXPECT_LE(line.size() - name - 4, 80U) << line;
+        }
+    }
+    EXPECT_NE(deck.find("ELSET=Eall_2"), std::string::npos);
+    EXPECT_EQ(deck.find("gone"), std::string::npos);
+    EXPECT_EQ(write_mesh(mesh, MeshFormat::kMshAscii).find("gone"), std::string::npos);
+}
+
+TEST(SolverFormatsTest, AnElementIsDefinedOnce) {
+    const Expected<ReadResult> twice =
+        read("*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=S3\n7, 1, 2, 3\n8, 1, 2, 3\n7, 2, 3, 1\n");
+    ASSERT_FALSE(twice);
+    EXPECT_NE(twice.error().message.find("line 8"), std::string::npos) << twice.error().message;
+    EXPECT_NE(twice.error().message.find("line 6"), std::string::npos) << twice.error().message;
 }
 
 TEST(SolverFormatsTest, BulkDataKeepElevenDigits) {
@@ -292,7 +399,8 @@ TEST(SolverFormatsTest, VtkFilesInTheirManyLayouts) {
     const std::string grid = head + "UNSTRUCTURED_GRID\n" + points;
     for (const std::string& text :
          {poly + "POLYGONS 2 8\n3 0 1 2\n3 1 3 2\n",
-          poly + "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2 3 1 3 2\nPOINT_DATA 4\nSCALARS a float\n",
+          poly +
+              "VERTICES 1 2\n1 0\nPOLYGONS 2 8\n3 0 1 2 3 1 3 2\nPOINT_DATA 4\nSCALARS a float\nLOOKUP_TABLE default\n1 2 3 4\n",
           grid + "CELLS 3 11\n2 0 1\n3 0 1 2\n3 1 3 2\nCELL_TYPES 3\n3 5 5\n",
           grid + "METADATA\nINFORMATION 0\n\nCELLS 3 6\nOFFSETS vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 1 3 "
                  "2\nCELL_TYPES 2\n5\n5\n"}) {
@@ -406,12 +514,14 @@ TEST(SolverFormatsTest, BrokenFilesAreErrorsThatSayWhere) {
         {msh + "$Elements\n1\n1 2 2 0 0 1 2", Cause::kTruncatedInput, "line 12: the file ends where a node of an element"},
         {msh + "$Unknown\n1 2 3\n", Cause::kTruncatedInput, "the file ends before '$EndUnknown'"},
         {msh + "Elements\n", Cause::kMalformedInput, "line 10: expected the name of a section, found 'Elements'"},
-        {vtk + "CELLS 1 4\n3 0 1 5\nCELL_TYPES 1\n5\n", Cause::kIndexOutOfRange, "element 0 names node 5"},
+        {vtk + "CELLS 1 4\n3 0 1 5\nCELL_TYPES 1\n5\n", Cause::kIndexOutOfRange,
+         "line 8: cell 0 names point 5; there are 0 to 2"},
         {vtk + "CELLS 1 4\n4 0 1 2\nCELL_TYPES 1\n5\n", Cause::kMalformedInput,
          "line 8: cell 0 is to have 4 points, but 3 numbers follow"},
         {vtk + "CELLS 2 4\n3 0 1 2\nCELL_TYPES 1\n5\n", Cause::kMalformedInput,
          "line 8: 2 cells are announced, but the numbers make 1"},
-        {vtk + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n99\n", Cause::kUnsupported, "cell 0 is of type 99"},
+        {vtk + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n99\n", Cause::kUnsupported, "line 10: cell 0 is of type 99"},
+        {vtk + "CELLS 1 4\n3 0 1 2\n", Cause::kTruncatedInput, "the file ends before CELL_TYPES"},
         {vtk + "CELLS 1 5\n4 0 1 2 2\nCELL_TYPES 1\n10\n", Cause::kUnsupported, "1 solid elements"},
         {vtk + "CELLS 1 4\n3 0 one 2\n", Cause::kMalformedInput, "line 8: expected a point of a cell, found 'one'"},
         {"# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n", Cause::kUnsupported,

@@ -19,8 +19,7 @@ namespace fs = std::filesystem;
 const std::span<const MeshFormat> kFormats = mesh_formats();
 constexpr std::array kExactFormats = {MeshFormat::kObj, MeshFormat::kPlyBinary, MeshFormat::kPlyAscii, MeshFormat::kOff,
                                       MeshFormat::kMsh, MeshFormat::kMshAscii,  MeshFormat::kMsh2,     MeshFormat::kMsh2Ascii,
-                                      MeshFormat::kInp, MeshFormat::kVtk,       MeshFormat::kVtkAscii, MeshFormat::kVtu,
-                                      MeshFormat::k3mf};
+                                      MeshFormat::kVtk, MeshFormat::kVtkAscii,  MeshFormat::kVtu,      MeshFormat::k3mf};
 
 TriangleMesh read(const std::string& bytes) {
     const Expected<ReadResult> result = read_mesh(std::as_bytes(std::span(bytes)), {});

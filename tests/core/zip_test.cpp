@@ -154,7 +154,7 @@ std::vector<std::string> tags_of(const std::string& xml) {
             return tags;
         }
         if (!*tag) return tags;
-        std::string text = std::to_string((*tag)->line) + " " + std::string((*tag)->name);
+        std::string text = std::to_string((*tag)->place.number) + ((*tag)->ends ? " /" : " ") + std::string((*tag)->name);
         for (const auto& [key, value] : (*tag)->attributes) text.append(" ").append(key).append("=").append(value);
         tags.push_back(text);
     }
@@ -163,10 +163,10 @@ std::vector<std::string> tags_of(const std::string& xml) {
 TEST(XmlStreamTest, TagsAcrossPiecesHaveTheirLines) {
     using Tags = std::vector<std::string>;
     const std::string long_comment = "<!--" + std::string(200'000, '\n') + "-->";
-    EXPECT_EQ(tags_of("<?xml version=\"1.0\"?>\n<!-- <a/> -->\n<b c='>' d=\"e\"><![CDATA[<f>]]></b>\n\n<g/>"),
-              (Tags{"3 b c=> d=e", "3 /b", "5 g"}));
+    EXPECT_EQ(tags_of("<?xml version=\"1.0\"?>\n<!-- <a/> -->\n<b c='>' d=\"e\"><![CDATA[<f>]]>\n\n<g/></b> "),
+              (Tags{"3 b c=> d=e", "5 g", "5 /b"}));
     EXPECT_EQ(tags_of(long_comment + "<a b=\"" + std::string(100'000, 'x') + "\"/>").back().size(), 100'000 + 11U);
-    EXPECT_EQ(tags_of("<a/>" + std::string(70'000, ' ') + "<b/>"), (Tags{"1 a", "1 b"}));
+    EXPECT_EQ(tags_of("<a>" + std::string(70'000, ' ') + "<b/></a>"), (Tags{"1 a", "1 b", "1 /a"}));
 }
 
 TEST(XmlStreamTest, SaysWhatIsWrongAndWhere) {
@@ -175,6 +175,27 @@ TEST(XmlStreamTest, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(tags_of("\n<a b=c/>").back(), HasSubstr("line 2: expected an attribute"));
     EXPECT_THAT(tags_of(std::string("\xFF\xFE<\0a\0", 6)).back(), HasSubstr("UTF-16"));
     EXPECT_THAT(tags_of("<a b=\"" + std::string(3'000'000, 'x') + "\"/>").back(), HasSubstr("over 1048576 bytes"));
+    EXPECT_THAT(tags_of("<a>" + std::string(70'000, ' ') + "\n" + std::string(300, ' ') + "<b=/></a>").back(),
+                HasSubstr("line 2, column 301: "))
+        << "long lines have columns";
+}
+
+TEST(XmlStreamTest, TagsMustNestAndBeWhole) {
+    EXPECT_THAT(tags_of("<a>\n<vertices>\n</vertexes></a>").back(),
+                HasSubstr("line 3: expected '</vertices>', the end of the tag of line 2, found '</vertexes>'"));
+    EXPECT_THAT(tags_of("<a>\n<b></a>").back(), HasSubstr("line 2: expected '</b>'"));
+    EXPECT_THAT(tags_of("<a>\n<b>").back(), HasSubstr("line 2: the file ends before '</b>'"));
+    EXPECT_THAT(tags_of("<a/>\n<b/>").back(), HasSubstr("line 2: a tag 'b' follows the end"));
+    EXPECT_THAT(tags_of("<a/>\nand").back(), HasSubstr("line 1: text follows the end of the XML: 'and'"));
+    EXPECT_THAT(tags_of("</a>").back(), HasSubstr("line 1: '</a>' ends a tag that was not begun"));
+    EXPECT_THAT(tags_of("<a></a b=\"c\">").back(), HasSubstr("expected '>' behind the end of 'a'"));
+    EXPECT_THAT(tags_of("<a b=\"1\" b=\"2\"/>").back(), HasSubstr("the attribute 'b' of 'a' is there twice"));
+    EXPECT_THAT(tags_of("<a / b=\"1\"/>").back(), HasSubstr("expected an attribute of 'a'"));
+    EXPECT_THAT(tags_of("<a b c=\"1\"/>").back(), HasSubstr("expected an attribute of 'a'"));
+    EXPECT_THAT(tags_of("< a/>").back(), HasSubstr("expected a tag's name"));
+    std::string deep;
+    for (int i = 0; i < 1001; ++i) deep += "<a>";
+    EXPECT_THAT(tags_of(deep).back(), HasSubstr("over 1000 deep"));
 }
 
 TEST(XmlStreamTest, NamesAreEscapedAndComeBack) {

@@ -163,6 +163,31 @@ TEST_F(LiveMeshTest, AConnectionThatIsCutFiftyTimesStartsNothingOver) { cut_fift
 TEST_F(LiveMeshTest, NorInSinglePrecision) { cut_fifty_times(kChoices[1]); }
 TEST_F(LiveMeshTest, NorQuantised) { cut_fifty_times(kChoices[2]); }
 
+TEST_F(LiveMeshTest, AStreamThatBreaksBehindItsBaseMeshLosesNoRegions) {
+    TriangleMesh halves = bumpy_sphere(2, 0.02, 5);
+    for (std::uint32_t f = 0; f < halves.face_count(); ++f) halves.regions.push_back(1 + 2 * f / halves.face_count());
+    v1::ImproveRequest request;
+    request.set_session(session_with(server_.stub(), halves));
+    const Received received = improve(server_.stub(), request);
+    ASSERT_TRUE(received.status.ok()) << received.status.error_message();
+    const client::ResolutionTarget to{request.session(), received.representation->id(), received.representation->faces_max(), {}};
+    MeshingClient client = connect();
+    MeshReceiver whole, broken;
+    ASSERT_TRUE(move_to(client, to, whole));
+    ASSERT_FALSE(whole.mesh().regions.empty());
+
+    client::EventHandlers handlers = broken.handlers();
+    handlers.on_regions = [](const v1::Regions&) { return Error{Cause::kCancelled, "the connection is lost", ""}; };
+    v1::SetResolutionRequest first;
+    first.set_session(to.session);
+    first.set_representation(to.representation);
+    first.set_faces(to.faces);
+    ASSERT_FALSE(client.set_resolution(first, handlers));
+    ASSERT_TRUE(broken.has_mesh());
+    ASSERT_TRUE(move_to(client, to, broken));
+    EXPECT_EQ(broken.mesh(), whole.mesh());
+}
+
 TEST_F(LiveMeshTest, FetchBringsAMeshUpToDateByRanges) {
     MeshingClient client = connect();
     LiveMesh live(client, target(made_.faces_min(), kChoices[2]));

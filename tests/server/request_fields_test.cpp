@@ -32,6 +32,13 @@ TEST(RequestFieldsTest, EnumsAndWellKnownTypes) {
     download.clear_format();
     EXPECT_TRUE(set_field(download, "format", "3"));
     EXPECT_EQ(download.format(), v1::OBJ);
+    download.clear_format();
+    EXPECT_TRUE(set_field(download, "format", "3mf"));
+    EXPECT_TRUE(set_field(download, "format", "three-MF")) << "the same";
+    EXPECT_EQ(download.format(), v1::THREE_MF);
+    EXPECT_TRUE(set_field(download, "unit", "Mm"));
+    EXPECT_EQ(download.unit(), v1::MILLIMETRE);
+    EXPECT_THAT(set_field(download, "unit", "yd").error().message, ::testing::HasSubstr("MILLIMETRE (mm)"));
     v1::Representation representation;
     EXPECT_TRUE(set_field(representation, "elapsed", "1.5s"));
     EXPECT_EQ(representation.elapsed().seconds(), 1);

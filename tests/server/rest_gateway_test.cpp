@@ -77,6 +77,20 @@ TEST_F(RestTest, CreatesWithAMeshInTheBodyOrNotAtAll) {
     EXPECT_EQ(server_.grpc().service().load().sessions, 2U) << "what failed left none behind";
 }
 
+TEST_F(RestTest, UnitsAndFormatsGoByTheirSymbolsToo) {
+    const HttpReply created = ask("POST", "/v1/sessions?unit=in&repair=Safe", {}, file_of(cube()));
+    ASSERT_EQ(created.status, 200U) << created.body;
+    EXPECT_EQ(json_at(created.body, "/source/unit"), "INCH");
+    const std::string mesh = "/v1/sessions/" + json_at(created.body, "/id") + "/mesh";
+    const HttpReply file = ask("GET", mesh + "?unit=mm&format=3mf");
+    EXPECT_EQ(file.status, 200U) << file.body;
+    EXPECT_EQ(file.body, ask("GET", mesh + "?unit=MILLIMETRE&format=three-mf").body);
+    EXPECT_TRUE(is_problem(ask("GET", mesh + "?unit=yd"), 400, "INVALID_OPTION"));
+    const HttpReply json =
+        ask("POST", "/v1/sessions", {{"Content-Type", "application/json"}}, R"({"unit": "mm", "repair": "full"})");
+    EXPECT_EQ(json.status, 200U) << json.body;
+}
+
 TEST_F(RestTest, ACreateWhoseClientLeavesLeavesNothing) {
     const auto cancelled = [&] {
         const std::vector<std::string> rpcs = server_.grpc().finished();

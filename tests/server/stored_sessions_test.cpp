@@ -143,6 +143,9 @@ TEST_F(StoredSessionsTest, ASessionIsTheSameAfterARestart) {
     EXPECT_EQ(after.representations.at(1)->figures().unit, std::nullopt);
     EXPECT_EQ(after.source->report.closed, before->source->report.closed);
     EXPECT_EQ(after.source->report.genus, before->source->report.genus);
+    EXPECT_EQ(after.source->report.groups.count, 2U);
+    ASSERT_EQ(after.source->report.groups.listed.size(), 2U);
+    EXPECT_EQ(after.source->report.groups.listed[0], before->source->report.groups.listed[0]);
     EXPECT_EQ(after.source->report.findings.size(), before->source->report.findings.size());
     expect_same(after.source->report.quality, before->source->report.quality);
     ASSERT_EQ(after.representations.size(), 2U);

@@ -42,7 +42,7 @@ v1::SetResolutionRequest request_for(const ResolutionTarget& target, const MeshR
     request.set_encoding(wire::to_proto(encoding.encoding));
     request.set_quantisation_bits(encoding.bits);
     request.set_keyframe(target.keyframes);
-    if (!receiver.has_mesh()) return request;
+    if (!receiver.has_mesh() || !receiver.has_regions()) return request;
     // Faces say what is held where no record is, records also where it ends between two splits.
     if (receiver.records_held() == 0) request.set_faces_held(receiver.faces_held());
     request.set_resume_from(receiver.records_held());
@@ -71,7 +71,10 @@ Expected<std::uint32_t> move_guarded(MeshingClient& client, const ResolutionTarg
     for (;;) {
         const std::size_t before = state_of(receiver);
         const auto made = client.set_resolution(request_for(target, receiver), handlers, call);
-        if (made) return shown(receiver, made->faces(), guard);
+        if (made) {
+            receiver.end_stream();
+            return shown(receiver, made->faces(), guard);
+        }
         if (made.error().cause != Cause::kUnavailable) return made.error();
         if (state_of(receiver) != before) backoff.reset();
         if (!backoff.again()) return call.stop.stop_requested() ? ExecutionContext::cancelled_error() : made.error();

@@ -41,6 +41,7 @@ Status MeshReceiver::begin(TriangleMesh base, std::uint32_t ghosts) {
     held_ = {std::move(base), {}, ghosts, ghost_faces, {}};
     progressive_ = *std::move(mesh);
     first_record_ = 0;
+    has_regions_ = false;
     before_ = {};
     visible_records_.reset();
     codec_ = RecordCodec();
@@ -53,12 +54,16 @@ void MeshReceiver::leave_keyframe() {
     progressive_ = std::move(before_.progressive);
     before_ = {};
     first_record_ = 0;
+    has_regions_ = has_mesh();
     visible_records_.reset();
 }
 
-Status MeshReceiver::check_place(std::uint32_t first) const {
+Status MeshReceiver::check_place(std::uint32_t first) {
     if (!has_mesh()) return Error{Cause::kOutOfOrder, "records came without a base mesh", ""};
-    if (first == records_held()) return Done{};
+    if (first == records_held()) {
+        has_regions_ = true;
+        return Done{};
+    }
     return Error{Cause::kOutOfOrder,
                  "a block begins at record " + std::to_string(first) + ", expected is " + std::to_string(records_held()), ""};
 }

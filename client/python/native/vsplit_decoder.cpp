@@ -1,11 +1,14 @@
 #include "vsplit_decoder.h"
 
-#include <cstring>
+#include <algorithm>
 #include <new>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "vsplit/mesh/length_unit.h"
 #include "vsplit/mrr/base_codec.h"
 #include "vsplit/mrr/mrr_file.h"
 #include "vsplit/mrr/record_codec.h"
@@ -26,6 +29,9 @@ struct vsplit_decoder {
     vsplit::MultiresMesh held;
     std::optional<vsplit::ProgressiveMesh> mesh;
     TriangleMesh visible;
+    std::optional<vsplit::LengthUnit> unit;
+
+    void show_what_is_reached() { visible = vsplit::visible_of(*mesh, held); }
 
     Status begin(TriangleMesh base, std::uint32_t ghosts, const PositionGrid& grid) {
         Expected<vsplit::ProgressiveMesh> made = vsplit::ProgressiveMesh::from_base(base, ghosts);
@@ -34,7 +40,8 @@ struct vsplit_decoder {
         held = {std::move(base), {}, ghosts, ghost_faces, {}};
         mesh = *std::move(made);
         codec = vsplit::RecordCodec(grid);
-        visible = mesh->visible();
+        unit.reset();
+        show_what_is_reached();
         return Done{};
     }
 
@@ -43,6 +50,7 @@ struct vsplit_decoder {
         if (!stored) return stored.error();
         if (Status begun = begin(stored->mrr.base, stored->mrr.ghosts, stored->grid); !begun) return begun;
         held = std::move(stored->mrr);
+        unit = stored->unit;
         return show(stored->faces);
     }
 
@@ -67,7 +75,32 @@ struct vsplit_decoder {
 
     Status show(std::uint32_t faces) {
         if (Status gone = go_to(held.record_of_level(held.level_for(faces))); !gone) return gone;
-        visible = mesh->visible();
+        if (Status fits = check_regions(); !fits) return fits;
+        show_what_is_reached();
+        return Done{};
+    }
+
+    /// Without the check the mesh would be shown as one without regions.
+    Status check_regions() const {
+        const std::size_t faces = mesh->mesh().faces.size();
+        if (held.regions.empty() || held.regions.size() >= faces) return Done{};
+        return Error{Cause::kCorrupt,
+                     "regions of " + std::to_string(held.regions.size()) + " faces came, expected are those of " +
+                         std::to_string(faces) + " or more",
+                     ""};
+    }
+
+    Status set_regions(std::span<const std::uint32_t> ids) {
+        if (!mesh) return Error{Cause::kOutOfOrder, "regions came without a base mesh", ""};
+        held.regions.assign(ids.begin(), ids.end());
+        if (Status fits = check_regions(); !fits) return fits;
+        show_what_is_reached();
+        return Done{};
+    }
+
+    Status add_set(const char* name, std::span<const std::uint32_t> regions) {
+        if (!mesh) return Error{Cause::kOutOfOrder, "a set of regions came without a base mesh", ""};
+        held.sets.push_back({name, {regions.begin(), regions.end()}});
         return Done{};
     }
 };
@@ -128,6 +161,14 @@ int vsplit_decoder_load(vsplit_decoder* decoder, const std::uint8_t* bytes, std:
     return guarded(decoder, [&] { return decoder->load(std::as_bytes(std::span(bytes, size))); });
 }
 
+int vsplit_decoder_set_regions(vsplit_decoder* decoder, const std::uint32_t* ids, std::uint32_t faces) {
+    return guarded(decoder, [&] { return decoder->set_regions({ids, faces}); });
+}
+
+int vsplit_decoder_add_set(vsplit_decoder* decoder, const char* name, const std::uint32_t* regions, std::uint32_t count) {
+    return guarded(decoder, [&] { return decoder->add_set(name, {regions, count}); });
+}
+
 int vsplit_decoder_append(vsplit_decoder* decoder, std::uint32_t first, std::uint32_t count, std::uint32_t encoding,
                           std::uint32_t crc32c, const std::uint8_t* payload, std::size_t size) {
     return guarded(decoder, [&] {
@@ -150,4 +191,26 @@ void vsplit_decoder_copy(const vsplit_decoder* decoder, double* positions, std::
     for (const Vec3& position : decoder->visible.positions)
         positions = std::copy(position.data(), position.data() + 3, positions);
     for (const vsplit::Triangle& face : decoder->visible.faces) indices = std::copy(face.begin(), face.end(), indices);
+}
+
+int vsplit_decoder_has_regions(const vsplit_decoder* decoder) { return decoder->held.regions.empty() ? 0 : 1; }
+
+void vsplit_decoder_copy_regions(const vsplit_decoder* decoder, std::uint32_t* ids) {
+    std::copy(decoder->visible.regions.begin(), decoder->visible.regions.end(), ids);
+}
+
+std::uint32_t vsplit_decoder_sets(const vsplit_decoder* decoder) { return static_cast<std::uint32_t>(decoder->held.sets.size()); }
+const char* vsplit_decoder_set_name(const vsplit_decoder* decoder, std::uint32_t set) {
+    return decoder->held.sets[set].name.c_str();
+}
+std::uint32_t vsplit_decoder_set_size(const vsplit_decoder* decoder, std::uint32_t set) {
+    return static_cast<std::uint32_t>(decoder->held.sets[set].regions.size());
+}
+void vsplit_decoder_copy_set(const vsplit_decoder* decoder, std::uint32_t set, std::uint32_t* regions) {
+    const std::vector<std::uint32_t>& from = decoder->held.sets[set].regions;
+    std::copy(from.begin(), from.end(), regions);
+}
+
+const char* vsplit_decoder_unit(const vsplit_decoder* decoder) {
+    return decoder->unit ? vsplit::unit_symbol(*decoder->unit).data() : "";  // of literals, so it ends with a 0
 }

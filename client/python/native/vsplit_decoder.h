@@ -34,6 +34,11 @@ int vsplit_decoder_load(vsplit_decoder* decoder, const uint8_t* bytes, size_t si
 int vsplit_decoder_append(vsplit_decoder* decoder, uint32_t first, uint32_t count, uint32_t encoding, uint32_t crc32c,
                           const uint8_t* payload, size_t size);
 
+/// Regions: an id a face of the finest resolution, faces that touch a ghost (0) included, after the base mesh has begun; in the
+/// place of those before. Then sets, each a name (UTF-8) for some regions.
+int vsplit_decoder_set_regions(vsplit_decoder* decoder, const uint32_t* ids, uint32_t faces);
+int vsplit_decoder_add_set(vsplit_decoder* decoder, const char* name, const uint32_t* regions, uint32_t count);
+
 /// Shows the resolution nearest to `faces` of those that have come.
 int vsplit_decoder_show(vsplit_decoder* decoder, uint32_t faces);
 
@@ -45,6 +50,21 @@ uint32_t vsplit_decoder_faces(const vsplit_decoder* decoder);
 
 /// Copies what is shown: 3 doubles a vertex, 3 indices a face.
 void vsplit_decoder_copy(const vsplit_decoder* decoder, double* positions, uint32_t* indices);
+
+/// Whether the mesh has regions (1) or none (0), and those of what is shown: an id a face.
+int vsplit_decoder_has_regions(const vsplit_decoder* decoder);
+void vsplit_decoder_copy_regions(const vsplit_decoder* decoder, uint32_t* ids);
+
+/// How many sets there are; of one of them the name (UTF-8, as long as the decoder stays as it is), how many regions it has, and
+/// which. Precondition: set < vsplit_decoder_sets(decoder).
+uint32_t vsplit_decoder_sets(const vsplit_decoder* decoder);
+const char* vsplit_decoder_set_name(const vsplit_decoder* decoder, uint32_t set);
+uint32_t vsplit_decoder_set_size(const vsplit_decoder* decoder, uint32_t set);
+void vsplit_decoder_copy_set(const vsplit_decoder* decoder, uint32_t set, uint32_t* regions);
+
+/// Of the lengths of a file: "um", "mm", "cm", "m", "in", "ft", or "" where that is not known; "" for a stream, which says it
+/// elsewhere.
+const char* vsplit_decoder_unit(const vsplit_decoder* decoder);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,6 @@
 """The verbs of the service."""
 
+import contextlib
 import os
 import pathlib
 import time
@@ -8,15 +9,25 @@ import grpc
 
 from .access import open_channel
 from .mesh import Mesh
+from .mesh_file import MeshFile
 from .v1 import meshing_pb2 as v1
 from .v1 import meshing_pb2_grpc
+from .words import message_of
 
 _PART = 256 * 1024
-_ENCODINGS = {"float64": v1.FLOAT64, "float32": v1.FLOAT32, "quantised": v1.QUANTISED}
 
 
 class Client:
-    """A connection; thread-safe, as grpc channels are. Calls raise grpc.RpcError, whose details say what was wrong."""
+    """A connection; thread-safe, as grpc channels are. `with` closes it.
+
+    Formats, units, repairs and whatever else has a name are given by the words of the command line ("inp", "mm", "full") or by the
+    names of the contract ("INP", "MILLIMETRE", "FULL"). A word that stands for nothing, and an option that there is not, is a
+    ValueError that lists what is accepted, before anything is sent. Calls raise grpc.RpcError, whose details() say what was wrong;
+    vsplit.problem_of(error) has the cause and the field.
+
+    A `representation` is the id of one, or its Mesh; without one the upload is meant. `faces` is its resolution, 0 the one that it
+    was made for.
+    """
 
     def __init__(self, target, attempts=5, *, token=None, tls_ca=None, tls_cert=None, tls_key=None):
         """`attempts`: tries in a row that bring nothing before a stream that broke is given up.
@@ -29,63 +40,47 @@ class Client:
         self._stub = meshing_pb2_grpc.MeshingStub(self._channel)
         self._attempts = attempts
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
     def close(self):
         self._channel.close()
 
-    def upload(self, mesh, on_progress=None, *, unit="LENGTH_UNIT_UNSPECIFIED"):
-        """A new session with a mesh: a path, or the bytes of a file. Returns the session's id.
+    def upload(self, mesh, on_progress=None, *, session=None, format=None, weld=0.0, repair=None, unit=None):
+        """A session with a mesh: a path, or the bytes of a file. Returns the session's id.
 
-        `unit`: of its lengths, where the file does not say it, e.g. "MILLIMETRE".
+        `session`: whose mesh it takes the place of; by default a new one, which is deleted where the mesh is refused. `format`: by
+        default told from the bytes. `weld`: vertices within this distance are merged, by default equal ones. `repair`: "none" (the
+        findings say what stands in the way), "safe" or "full" (docs/repair.md). `unit`: of the lengths, where the file does not say
+        it. What was found, and what a repair changed: client.session(id).source.findings. `on_progress(sent, size)`: in bytes.
         """
-        data = mesh if isinstance(mesh, bytes) else pathlib.Path(mesh).read_bytes()
-        session = self._stub.CreateSession(v1.CreateSessionRequest()).id
+        data = mesh if isinstance(mesh, (bytes, bytearray, memoryview)) else pathlib.Path(mesh).read_bytes()
+        first = message_of(
+            v1.UploadMeshRequest, {"format": format, "weld": weld, "repair": repair, "unit": unit, "size": memoryview(data).nbytes})
+        first.session = session or self._stub.CreateSession(v1.CreateSessionRequest()).id
+        try:
+            self._send(first, bytes(data), on_progress)
+        except BaseException:
+            if not session:
+                with contextlib.suppress(grpc.RpcError):
+                    self.delete(first.session)
+            raise
+        return first.session
 
-        def parts():
-            for offset in range(0, len(data), _PART):
-                part = data[offset:offset + _PART]
-                yield v1.UploadMeshRequest(
-                    session=session, size=len(data), offset=offset, data=part, unit=v1.LengthUnit.Value(unit))
-                if on_progress:
-                    on_progress(offset + len(part), len(data))
+    def session(self, session):
+        """A Session message: the mesh's summary with its findings (`source`), representations, when it expires."""
+        return self._stub.GetSession(v1.GetSessionRequest(session=session))
 
-        self._stub.UploadMesh(parts())
-        return session
-
-    def improve(self, session, *, source=None, encoding="float64", bits=0, on_progress=None, **options):
-        """A Mesh at the resolution it was made for. `options`: the fields of ImproveOptions; `source`: a Mesh of the session."""
-        request = v1.ImproveRequest(session=session, options=v1.ImproveOptions(**options))
-        return self._run(self._stub.Improve, request, source, encoding, bits, on_progress)
-
-    def control(self, session, *, source=None, encoding="float64", bits=0, on_progress=None, **options):
-        """As improve, with the fields of ControlOptions."""
-        request = v1.ControlRequest(session=session, options=v1.ControlOptions(**options))
-        return self._run(self._stub.Control, request, source, encoding, bits, on_progress)
-
-    def open(self, session, representation, faces, *, encoding="float64", bits=0):
-        """A Mesh of a representation that is there, by its id."""
-        mesh = Mesh(self, session, _ENCODINGS[encoding], bits)
-        mesh.representation = v1.Representation(id=representation, faces=faces)
-        self._fetch(mesh, faces)
-        return mesh
-
-    def set_resolution(self, mesh, faces):
-        """The same as mesh.at(faces)."""
-        return mesh.at(faces)
-
-    def download(self, session, representation="", faces=0, format="STL", unit="LENGTH_UNIT_UNSPECIFIED"):
-        """The bytes of a mesh file; its lengths in `unit`, by default the session's."""
-        request = v1.DownloadMeshRequest(
-            session=session, representation=representation, faces=faces, format=v1.MeshFormat.Value(format),
-            unit=v1.LengthUnit.Value(unit))
-        return b"".join(chunk.data for chunk in self._stub.DownloadMesh(request))
-
-    def features(self, session, **options):
-        """ShapeFeature messages of the session's mesh. `options`: the fields of ListFeaturesRequest."""
-        return list(self._stub.ListFeatures(v1.ListFeaturesRequest(session=session, **options)).features)
-
-    def remove_features(self, session, *, ids=(), **options):
-        """Takes features off the session's mesh; a RemoveFeaturesResponse. `options`: `max_diameter`, `kinds`, `angle`."""
-        return self._stub.RemoveFeatures(v1.RemoveFeaturesRequest(session=session, ids=ids, **options))
+    def sessions(self):
+        """Session messages of all sessions, in order of creation."""
+        found, page = [], None
+        while page is None or page.next_page_token:
+            page = self._stub.ListSessions(v1.ListSessionsRequest(page_token=page.next_page_token if page else ""))
+            found.extend(page.sessions)
+        return found
 
     def keep_alive(self, session):
         """Puts off when the session expires; a Session, which says until when."""
@@ -94,39 +89,126 @@ class Client:
     def delete(self, session):
         self._stub.DeleteSession(v1.DeleteSessionRequest(session=session))
 
-    def _run(self, method, request, source, encoding, bits, on_progress):
-        mesh = Mesh(self, request.session, _ENCODINGS[encoding], bits)
-        request.encoding, request.quantisation_bits = mesh._encoding, bits
-        if source is not None:
-            request.source.representation, request.source.faces = source.representation.id, source.representation.faces
-        for event in method(request):
-            if on_progress and event.WhichOneof("event") == "progress":
-                on_progress(event.progress)
-            mesh._take(event)
+    def improve(self, session, *, source=None, source_faces=0, encoding="float64", bits=0, on_progress=None, timeout=None,
+                **options):
+        """A Mesh at the resolution it was made for.
+
+        `options`: the fields of ImproveOptions; `regions`, `marked_edges` and `sizing` take arrays, and a dict such as
+        {"spheres": [{"center": (0, 0, 0), "radius": 5, "size": 1}], "gradation": 0.2}. `source`: the representation to start from,
+        at the resolution `source_faces`. `encoding`: of the stream, "float64", "float32" or "quantised" to a grid of `bits`.
+        `timeout`: seconds for all of it, the wait for methods before it included; by default no end.
+        """
+        request = v1.ImproveRequest(session=session, options=message_of(v1.ImproveOptions, options))
+        return self._run(self._stub.Improve, request, (source, source_faces), encoding, bits, on_progress, timeout)
+
+    def control(self, session, *, source=None, source_faces=0, encoding="float64", bits=0, on_progress=None, timeout=None,
+                **options):
+        """As improve, with the fields of ControlOptions."""
+        request = v1.ControlRequest(session=session, options=message_of(v1.ControlOptions, options))
+        return self._run(self._stub.Control, request, (source, source_faces), encoding, bits, on_progress, timeout)
+
+    def open(self, session, representation="", faces=None, *, encoding="float64", bits=0):
+        """A Mesh of a representation that is there, by default the session's newest, at the resolution `faces`, by default the one
+        that it was made for."""
+        held = self.session(session).representations
+        made = next((each for each in held[::-1] if representation in ("", each.id)), None)
+        mesh = Mesh(self, session, message_of(v1.SetResolutionRequest, {"encoding": encoding, "quantisation_bits": bits}))
+        wanted = made.faces if made and faces is None else faces or 0
+        mesh.representation = self._fetch(mesh, wanted, made.id if made else representation)
         return mesh
 
-    def _fetch(self, mesh, faces):
-        """Records up to a resolution; a stream that breaks goes on where it broke."""
+    def set_resolution(self, mesh, faces):
+        """The same as mesh.at(faces)."""
+        return mesh.at(faces)
+
+    def download(self, session, representation="", faces=0, format="stl", unit=None, order=None):
+        """A MeshFile: the bytes of a mesh file, with what the server says of it; its lengths in `unit`, by default the session's.
+
+        `order`: 1, triangles of three nodes, or 2, of six, the middle ones on the upload's surface ("msh", "inp", "bdf", "vtk" and
+        "vtu").
+        """
+        representation, faces = _place_of(representation, faces)
+        fields = {"representation": representation, "faces": faces, "format": format, "unit": unit, "order": order}
+        request = message_of(v1.DownloadMeshRequest, {"session": session, **fields})
+        return MeshFile.of_chunks(self._stub.DownloadMesh(request))
+
+    def quality(self, session, representation="", faces=0, *, worst=0, profile=None):
+        """A Quality message: counts, stretch with its histogram, sizes, and the worst faces, `worst` of them, 0 for 20.
+
+        `profile`: "stretch-02", "verdict" or "optistruct", by whose limits faces pass, are warned of or fail (`profile` of the
+        answer).
+        """
+        representation, faces = _place_of(representation, faces)
+        fields = {"representation": representation, "faces": faces, "worst": worst, "profile": profile}
+        return self._stub.GetQuality(message_of(v1.GetQualityRequest, {"session": session, **fields}))
+
+    def features(self, session, **options):
+        """ShapeFeature messages of the session's mesh. `options`: `angle`."""
+        return list(self._stub.ListFeatures(message_of(v1.ListFeaturesRequest, {"session": session, **options})).features)
+
+    def remove_features(self, session, *, ids=(), **options):
+        """Takes features off the session's mesh; a RemoveFeaturesResponse.
+
+        `options`: `max_diameter`, `kinds` ("through-hole", "blind-hole", "boss", "fillet"), `angle`.
+        """
+        return self._stub.RemoveFeatures(message_of(v1.RemoveFeaturesRequest, {"session": session, "ids": ids, **options}))
+
+    def _send(self, first, data, on_progress):
+        failures = []
+
+        def parts():
+            try:
+                part = first
+                for offset in range(0, max(len(data), 1), _PART):
+                    part.offset, part.data = offset, data[offset:offset + _PART]
+                    yield part
+                    if on_progress:
+                        on_progress(offset + len(part.data), len(data))
+                    part = v1.UploadMeshRequest()
+            except Exception as failure:  # grpc would tell of "Exception iterating requests!"
+                failures.append(failure)
+                raise
+
+        try:
+            return self._stub.UploadMesh(parts())
+        except grpc.RpcError:
+            if failures:
+                raise failures[0] from None
+            raise
+
+    def _run(self, method, request, source, encoding, bits, on_progress, timeout):
+        layout = message_of(v1.SetResolutionRequest, {"encoding": encoding, "quantisation_bits": bits})
+        mesh = Mesh(self, request.session, layout)
+        request.encoding, request.quantisation_bits = layout.encoding, bits
+        request.source.representation, request.source.faces = _place_of(*source)
+        for event in method(request, timeout=timeout):
+            if on_progress and event.WhichOneof("event") == "progress":
+                on_progress(event.progress)
+            mesh.representation = mesh._take(event) or mesh.representation
+        return mesh
+
+    def _fetch(self, mesh, faces, representation):
+        """Brings records up to a resolution; a stream that breaks goes on where it broke. The Representation at that resolution."""
         failed = 0
         while True:
-            held = (mesh._decoder.faces_held, mesh._decoder.records_held)
+            held = mesh._decoder.records_held
             try:
-                mesh._parts = []
-                for event in self._stub.SetResolution(self._request(mesh, faces)):
-                    mesh._take(event)
-                return
+                made = None
+                mesh._begin_stream()
+                for event in self._stub.SetResolution(mesh._request(representation, faces)):
+                    made = mesh._take(event) or made
+                return made
             except grpc.RpcError as error:
                 if error.code() != grpc.StatusCode.UNAVAILABLE:
                     raise
-                brought = held != (mesh._decoder.faces_held, mesh._decoder.records_held)
-                failed = 0 if brought else failed + 1
+                failed = 0 if held != mesh._decoder.records_held else failed + 1
                 if failed >= self._attempts:
                     raise
                 time.sleep(min(0.02 * 2**failed, 2))
 
-    @staticmethod
-    def _request(mesh, faces):
-        held = mesh._decoder.records_held
-        return v1.SetResolutionRequest(
-            session=mesh._session, representation=mesh.representation.id, faces=faces, encoding=mesh._encoding,
-            quantisation_bits=mesh._bits, resume_from=held, faces_held=0 if held else mesh._decoder.faces_held)
+
+def _place_of(representation, faces):
+    """Id and resolution; those of a Mesh are what it was made for."""
+    if isinstance(representation, Mesh):
+        return representation.representation.id, faces or representation.representation.faces
+    return representation or "", faces or 0

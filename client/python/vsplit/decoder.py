@@ -31,6 +31,8 @@ def _load():
         ("begin_packed", ctypes.c_int,
          [pointer, _BYTES, ctypes.c_size_t, _U32, _U32, _U32, _U32, _U32, ctypes.c_double * 3, ctypes.c_double]),
         ("load", ctypes.c_int, [pointer, _BYTES, ctypes.c_size_t]),
+        ("set_regions", ctypes.c_int, [pointer, indices, _U32]),
+        ("add_set", ctypes.c_int, [pointer, _BYTES, indices, _U32]),
         ("append", ctypes.c_int, [pointer, _U32, _U32, _U32, _U32, _BYTES, ctypes.c_size_t]),
         ("show", ctypes.c_int, [pointer, _U32]),
         ("faces_held", _U32, [pointer]),
@@ -38,6 +40,13 @@ def _load():
         ("vertices", _U32, [pointer]),
         ("faces", _U32, [pointer]),
         ("copy", None, [pointer, doubles, indices]),
+        ("has_regions", ctypes.c_int, [pointer]),
+        ("copy_regions", None, [pointer, indices]),
+        ("sets", _U32, [pointer]),
+        ("set_name", _BYTES, [pointer, _U32]),
+        ("set_size", _U32, [pointer, _U32]),
+        ("copy_set", None, [pointer, _U32, indices]),
+        ("unit", _BYTES, [pointer]),
     ):
         function = getattr(library, "vsplit_decoder_" + name)
         function.restype, function.argtypes = result, arguments
@@ -76,6 +85,13 @@ class Decoder:
     def load(self, data):
         self._check(_library.vsplit_decoder_load(self._decoder, data, len(data)))
 
+    def set_regions(self, ids, sets):
+        """`ids`: of every face of the finest mesh; `sets`: FaceSet messages."""
+        self._check(_library.vsplit_decoder_set_regions(self._decoder, ids, len(ids)))
+        for each in sets:
+            regions = np.array(each.regions, np.uint32)
+            self._check(_library.vsplit_decoder_add_set(self._decoder, each.name.encode(), regions, len(regions)))
+
     def append(self, block):
         self._check(_library.vsplit_decoder_append(
             self._decoder, block.first, block.count, block.encoding, block.crc32c, block.payload, len(block.payload)))
@@ -96,3 +112,24 @@ class Decoder:
         faces = np.empty((_library.vsplit_decoder_faces(self._decoder), 3), np.uint32)
         _library.vsplit_decoder_copy(self._decoder, points, faces)
         return points, faces
+
+    def shown_regions(self):
+        """None where the mesh has none."""
+        if not _library.vsplit_decoder_has_regions(self._decoder):
+            return None
+        ids = np.empty(_library.vsplit_decoder_faces(self._decoder), np.uint32)
+        _library.vsplit_decoder_copy_regions(self._decoder, ids)
+        return ids
+
+    def sets(self):
+        """Pairs of a name and the regions it stands for."""
+        found = []
+        for number in range(_library.vsplit_decoder_sets(self._decoder)):
+            regions = np.empty(_library.vsplit_decoder_set_size(self._decoder, number), np.uint32)
+            _library.vsplit_decoder_copy_set(self._decoder, number, regions)
+            found.append((_library.vsplit_decoder_set_name(self._decoder, number).decode(errors="replace"), regions))
+        return found
+
+    @property
+    def unit(self):
+        return _library.vsplit_decoder_unit(self._decoder).decode()

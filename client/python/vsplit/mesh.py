@@ -5,38 +5,72 @@ import pathlib
 import numpy as np
 
 from .decoder import CorruptError, Decoder
+from .v1 import meshing_pb2 as v1
+from .words import word_of
 
 
 class _Shown:
-    """What gives points (n, 3) and triangles (m, 3) by `at`, in the forms of others."""
+    """What has points (n, 3), triangles (m, 3) and regions (m,) at any resolution, also in the forms of others. Not thread-safe.
+
+    `faces` is a resolution, of which the nearest that there is is taken; None is the one that the mesh was made for.
+    """
+
+    def at(self, faces=None):
+        """Points (n, 3), float64, and triangles (m, 3), uint32."""
+        self._show(faces)
+        return self._decoder.shown()
+
+    def regions_at(self, faces=None):
+        """The region of each triangle of at(faces), uint32 (m,); None where the mesh has no regions."""
+        self._show(faces)
+        return self._decoder.shown_regions()
+
+    @property
+    def sets(self):
+        """The regions (k,) that each name stands for, as a dict; sets may overlap. Empty where the mesh has none."""
+        found = {}
+        for name, regions in self._decoder.sets():
+            found[name] = np.union1d(found[name], regions) if name in found else regions
+        return found
+
+    def sets_at(self, faces=None):
+        """The triangles of at(faces) that are in each set: a dict of ascending numbers (k,) by name."""
+        self._show(faces)
+        return self._shown_sets()
 
     def meshio_at(self, faces=None):
-        """Arguments of meshio.Mesh."""
+        """Arguments of meshio.Mesh, 7 of them: points, cells, and with regions cell_data "region" and cell_sets."""
         points, triangles = self.at(faces)
-        return points, [("triangle", triangles)]
+        regions = self._decoder.shown_regions()
+        data = {} if regions is None else {"region": [regions]}
+        sets = {name: [members] for name, members in self._shown_sets().items()}
+        return points, [("triangle", triangles)], None, data, None, None, sets
 
     def pyvista_at(self, faces=None):
-        """Arguments of pyvista.PolyData."""
+        """Arguments of pyvista.PolyData, whose cell_data["region"] takes regions_at(faces)."""
         points, triangles = self.at(faces)
         return points, np.hstack([np.full((len(triangles), 1), 3, np.int64), triangles.astype(np.int64)]).ravel()
 
+    def _shown_sets(self):
+        regions = self._decoder.shown_regions()
+        return {name: np.flatnonzero(np.isin(regions, members)) for name, members in self.sets.items()}
+
 
 class StoredMesh(_Shown):
-    """All resolutions of a `.vsplit` file, made by load."""
+    """All resolutions of a `.vsplit` file, made by load. `unit`: of its lengths, "mm" for example; "" where that is not known."""
 
     def __init__(self, data):
         self._decoder = Decoder()
         self._decoder.load(data)
         self._made_for = self._decoder.shown()[1].shape[0]
+        self.unit = self._decoder.unit
 
     @property
     def faces_max(self):
         return self._decoder.faces_held
 
-    def at(self, faces=None):
-        """Points (n, 3) and triangles (m, 3) at the resolution nearest to `faces`; None: the one it was made for."""
+    def _show(self, faces):
         self._decoder.show(self._made_for if faces is None else faces)
-        return self._decoder.shown()
 
 
 def load(path):
@@ -45,33 +79,71 @@ def load(path):
 
 
 class Mesh(_Shown):
-    """Made by Client.improve, control and open. `representation` is the vsplit.v1.Representation."""
+    """Made by Client.improve, control and open; fetches what is missing for a resolution.
 
-    def __init__(self, client, session, encoding, bits):
-        self._client, self._session = client, session
-        self._encoding, self._bits = encoding, bits
+    `representation`: the vsplit.v1.Representation at the resolution that it was made for. `max_error`: no coordinate of the stream
+    is further from the exact one.
+    """
+
+    def __init__(self, client, session, layout):
+        """`layout`: a SetResolutionRequest with the encoding of the stream."""
+        self._client, self._session, self._layout = client, session, layout
         self._decoder = Decoder()
-        self._parts = []
+        self._begin_stream()
         self.representation = None
         self.max_error = 0.0
 
-    def at(self, faces=None):
-        """Points (n, 3) and triangles (m, 3) at the resolution nearest to `faces`; None: the one it was made for. Fetches what is
-        missing."""
+    @property
+    def faces_max(self):
+        return self.representation.faces_max
+
+    @property
+    def unit(self):
+        """Of the lengths, "mm" for example; "" where that is not known."""
+        return word_of(v1.LengthUnit.DESCRIPTOR, self.representation.unit)
+
+    def figures_at(self, faces):
+        """The Representation with the figures of a resolution: quality, whether the bounds of control hold, what breaks them."""
+        return self._client._fetch(self, faces, self.representation.id)
+
+    def _show(self, faces):
         wanted = self.representation.faces if faces is None else faces
         if wanted > self._decoder.faces_held or not self._decoder.faces_held:
-            self._client._fetch(self, wanted)
+            self._client._fetch(self, wanted, self.representation.id)
         self._decoder.show(wanted)
-        return self._decoder.shown()
+
+    def _request(self, representation, faces):
+        """Who holds no record yet begins anew: the base mesh or the regions after it may have come in part."""
+        request = v1.SetResolutionRequest()
+        request.CopyFrom(self._layout)
+        request.session, request.representation, request.faces = self._session, representation, faces
+        request.resume_from = self._decoder.records_held
+        return request
+
+    def _begin_stream(self):
+        self._parts, self._region_parts = [], []
 
     def _take(self, event):
+        """The Representation where the event is one."""
         kind = event.WhichOneof("event")
+        if kind == "representation":
+            return event.representation
         if kind == "base_mesh":
             self._take_base(event.base_mesh)
+        elif kind == "regions":
+            self._take_regions(event.regions)
         elif kind == "record_block":
             self._decoder.append(event.record_block)
-        elif kind == "representation":
-            self.representation = self.representation or event.representation
+        return None
+
+    def _take_regions(self, part):
+        self._region_parts.append(part)
+        ids = np.frombuffer(b"".join(p.ids for p in self._region_parts), "<u4")
+        if len(ids) > part.faces:
+            raise CorruptError(f"regions of {len(ids)} faces came, {part.faces} were announced")
+        if len(ids) == part.faces:
+            self._decoder.set_regions(ids.astype(np.uint32), self._region_parts[0].sets)
+            self._region_parts = []
 
     def _take_base(self, part):
         self._parts.append(part)

@@ -122,7 +122,7 @@ public:
         mesh_.faces.reserve(static_cast<std::size_t>(all.faces));
         for (std::size_t i = 0; i < items.size(); ++i) {
             const Reference3mf& item = root_.items[i];
-            if (Status placed = place(items[i], item.placement, "", item.line); !placed) return of_root(placed.error());
+            if (Status placed = place(items[i], item.placement, "", item.place); !placed) return of_root(placed.error());
         }
         number_regions();
         return std::move(mesh_);
@@ -137,7 +137,7 @@ private:
         if (found != by_id_.end() && found->second < before) return found->second;
         const std::string which =
             "object " + std::to_string(reference.object) + (reference.part.empty() ? "" : " of " + reference.part);
-        return error(model, reference.line, Cause::kMalformedInput,
+        return error(model, reference.place, Cause::kMalformedInput,
                      which + (found == by_id_.end() ? " is not defined" : " is not defined before it is used"));
     }
 
@@ -155,13 +155,13 @@ private:
         if (node.object->is_support) node.extent = {};
         const bool is_new = by_id_.try_emplace({upper_case(node.model->part), node.object->id}, n).second;
         if (is_new) return Done{};
-        return error(*node.model, node.object->line, Cause::kMalformedInput,
+        return error(*node.model, node.object->place, Cause::kMalformedInput,
                      "object " + std::to_string(node.object->id) + " is defined a second time");
     }
 
     /// Before memory is taken.
     Status check(const Extent& all) const {
-        const Place place = at_line(root_.items.empty() ? 1 : root_.items.front().line);
+        const Place place = root_.items.empty() ? at_line(1) : root_.items.front().place;
         if (all.placed > kMostPlaced)
             return read_error(Cause::kLimitExceeded, place, "the build comes to over a million objects with their components");
         if (all.depth > kDeepest + 1)
@@ -172,42 +172,42 @@ private:
         return check_face_limit(all.faces, options_.max_faces, place);
     }
 
-    Status place(std::size_t n, const std::optional<Placement3mf>& placement, const std::string& name, std::size_t line) {
+    Status place(std::size_t n, const std::optional<Placement3mf>& placement, const std::string& name, Place at) {
         const Node& node = nodes_[n];
         const Object3mf& object = *node.object;
         if (object.is_support) return Done{};
         const std::string& called = object.name.empty() ? name : object.name;
         if (!object.mesh.faces.empty()) {
-            if (Status added = add_mesh(n, placement, called, line); !added) return added;
+            if (Status added = add_mesh(n, placement, called, at); !added) return added;
         }
         for (std::size_t i = 0; i < node.components.size(); ++i) {
             const std::optional<Placement3mf>& inner = object.components[i].placement;
             const std::optional<Placement3mf> both =
                 inner || placement ? std::optional(combined(placement, inner)) : std::nullopt;
-            if (Status placed = place(node.components[i], both, called, line); !placed) return placed;
+            if (Status placed = place(node.components[i], both, called, at); !placed) return placed;
         }
         return Done{};
     }
 
-    /// `line`: of the item that puts it there.
-    Status add_mesh(std::size_t n, const std::optional<Placement3mf>& placement, const std::string& name, std::size_t line) {
+    /// `at`: of the item that puts it there.
+    Status add_mesh(std::size_t n, const std::optional<Placement3mf>& placement, const std::string& name, Place at) {
         const TriangleMesh& mesh = nodes_[n].object->mesh;
         const std::uint32_t first = mesh_.vertex_count();
         const bool mirrored = placement && placement->linear.determinant() < 0;
         for (const Vec3& position : mesh.positions) {
             const Vec3 moved = placement ? Vec3(placement->linear * position + placement->shift) : position;
-            if (Status valid = check_position(moved, at_line(line)); !valid) return valid;
+            if (Status valid = check_position(moved, at); !valid) return valid;
             mesh_.positions.push_back(moved);
         }
         for (const Triangle& face : mesh.faces) {
             const Triangle there{first + face[0], first + face[1], first + face[2]};
             mesh_.faces.push_back(mirrored ? Triangle{there[0], there[2], there[1]} : there);
         }
-        return add_regions(n, name.empty() ? "object_" + std::to_string(nodes_[n].object->id) : name, line);
+        return add_regions(n, name.empty() ? "object_" + std::to_string(nodes_[n].object->id) : name, at);
     }
 
     /// Temporary ones: those of an object under a name stand together, a cell each.
-    Status add_regions(std::size_t n, const std::string& name, std::size_t line) {
+    Status add_regions(std::size_t n, const std::string& name, Place at) {
         auto known = cells_.find(n);
         if (known == cells_.end()) known = cells_.try_emplace(n, cells_of(*nodes_[n].object)).first;
         const SetCells& cells = known->second;
@@ -220,7 +220,7 @@ private:
                     put_into_set({nodes_[n].object->sets[s].name, false}, begin->second + cell);
             }
             if (memberships_ > kMostMemberships)
-                return read_error(Cause::kLimitExceeded, at_line(line), "the sets of the build have over 100 million members");
+                return read_error(Cause::kLimitExceeded, at, "the sets of the build have over 100 million members");
         }
         for (const std::uint32_t cell : cells.of_face) mesh_.regions.push_back(begin->second + cell);
         return Done{};
@@ -263,8 +263,8 @@ private:
         if (mesh_.sets.empty()) mesh_.regions.clear();
     }
 
-    static Error error(const Model3mf& model, std::size_t line, Cause cause, const std::string& what) {
-        return in_part(model, read_error(cause, at_line(line), what));
+    static Error error(const Model3mf& model, Place at, Cause cause, const std::string& what) {
+        return in_part(model, read_error(cause, at, what));
     }
     [[nodiscard]] Error of_root(const Error& error) const { return in_part(root_, error); }
     static Error in_part(const Model3mf& model, Error error) {

@@ -50,14 +50,13 @@ void ElementBuilder::add_to_set(const std::string& name, std::int64_t first, std
 }
 
 void ElementBuilder::add_set_to_set(const std::string& name, const std::string& other, Place place) {
-    set(name).others.emplace_back(other, place.number);
+    set(name).others.push_back({other, place.number, kNobody});
 }
 
 void ElementBuilder::name_region(const std::string& name, std::uint32_t region) {
-    for (FaceSet& named : mesh_.sets) {
-        if (named.name == name) return named.regions.push_back(region);
-    }
-    mesh_.sets.push_back({name, {region}});
+    const auto [found, is_new] = region_names_.try_emplace(name, mesh_.sets.size());
+    if (is_new) mesh_.sets.push_back({name, {}});
+    mesh_.sets[found->second].regions.push_back(region);
 }
 
 Status ElementBuilder::sort_nodes() {
@@ -100,35 +99,60 @@ Status ElementBuilder::number_corners() {
     return Done{};
 }
 
-Status ElementBuilder::collect_members(std::size_t number, std::vector<std::size_t>& members) const {
-    if (std::find(members.begin(), members.end(), number) != members.end()) return Done{};
-    members.push_back(number);
-    const Set& s = sets_[number];
-    for (const auto& [name, place] : s.others) {
-        const std::optional<std::size_t> other = find_set(name);
-        if (!other) {
-            return error_at(Cause::kMalformedInput, place,
-                            "set " + quoted(s.name) + " names the set " + quoted(name) + ", which the file does not define");
+Status ElementBuilder::count_member(std::size_t place) {
+    constexpr std::uint64_t kMostMemberships = 100'000'000;  // also what hostile sets that hold each other come to
+    if (++memberships_ <= kMostMemberships) return Done{};
+    return error_at(Cause::kLimitExceeded, place, "the sets of the file have over 100 million members");
+}
+
+Status ElementBuilder::find_others() {
+    for (Set& s : sets_) {
+        for (Other& other : s.others) {
+            const std::optional<std::size_t> found = find_set(other.name);
+            if (!found) {
+                return error_at(
+                    Cause::kMalformedInput, other.place,
+                    "set " + quoted(s.name) + " names the set " + quoted(other.name) + ", which the file does not define");
+            }
+            other.number = static_cast<std::uint32_t>(*found);
         }
-        if (Status inner = collect_members(*other, members); !inner) return inner;
     }
     return Done{};
 }
 
-void ElementBuilder::sort_elements() {
-    for (std::uint32_t f = 0; f < corners_.size(); ++f) {
-        if (f == 0 || corners_[f].element != corners_[f - 1].element) elements_.push_back({corners_[f].element, f});
+/// The set and all it holds, those they hold too, each once.
+Status ElementBuilder::collect_members(std::uint32_t number, std::vector<std::uint32_t>& members) {
+    members.assign(1, number);
+    collected_for_[number] = number;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        for (const Other& other : sets_[members[i]].others) {
+            if (Status counted = count_member(other.place); !counted) return counted;
+            if (std::exchange(collected_for_[other.number], number) != number) members.push_back(other.number);
+        }
     }
-    std::stable_sort(elements_.begin(), elements_.end(), [](const Node& l, const Node& r) { return l.id < r.id; });
+    return Done{};
+}
+
+Status ElementBuilder::sort_elements() {
+    for (std::uint32_t f = 0; f < corners_.size(); ++f) {
+        const bool same = f > 0 && corners_[f].element == corners_[f - 1].element && corners_[f].place == corners_[f - 1].place;
+        if (!same) elements_.push_back({corners_[f].element, f});
+    }
+    const auto by_id = [](const Node& l, const Node& r) { return l.id < r.id; };
+    if (!std::is_sorted(elements_.begin(), elements_.end(), by_id)) std::stable_sort(elements_.begin(), elements_.end(), by_id);
+    const auto twice =
+        std::adjacent_find(elements_.begin(), elements_.end(), [](const Node& l, const Node& r) { return l.id == r.id; });
+    if (twice == elements_.end()) return Done{};
+    return error_at(Cause::kMalformedInput, corners_[std::next(twice)->index].place,
+                    "element " + std::to_string(twice->id) + " is defined a second time; first at " + std::string(unit_) + " " +
+                        std::to_string(corners_[twice->index].place));
 }
 
 Status ElementBuilder::put_into_set(const Range& range, std::uint32_t number) {
-    constexpr std::uint64_t kMostMemberships = 100'000'000;  // also what hostile sets that hold each other come to
     auto at = std::lower_bound(elements_.begin(), elements_.end(), range.first,
                                [](const Node& n, std::int64_t id) { return n.id < id; });
     for (; at != elements_.end() && at->id <= range.last; ++at) {
-        if (++memberships_ > kMostMemberships)
-            return error_at(Cause::kLimitExceeded, range.place, "the sets of the file have over 100 million members");
+        if (Status counted = count_member(range.place); !counted) return counted;
         if ((at->id - range.first) % range.step != 0) continue;
         for (std::uint32_t f = at->index; f < corners_.size() && corners_[f].element == at->id; ++f) {
             if (sets_of_[f].empty() || sets_of_[f].back() != number) sets_of_[f].push_back(number);
@@ -138,11 +162,13 @@ Status ElementBuilder::put_into_set(const Range& range, std::uint32_t number) {
 }
 
 Status ElementBuilder::fill_sets() {
+    if (Status found = find_others(); !found) return found;
     sets_of_.resize(corners_.size());
+    collected_for_.assign(sets_.size(), kNobody);
+    std::vector<std::uint32_t> members;
     for (std::uint32_t number = 0; number < sets_.size(); ++number) {
-        std::vector<std::size_t> members;
         if (Status collected = collect_members(number, members); !collected) return collected;
-        for (const std::size_t member : members) {
+        for (const std::uint32_t member : members) {
             for (const Range& range : sets_[member].ranges) {
                 if (Status put = put_into_set(range, number); !put) return put;
             }
@@ -180,8 +206,8 @@ Expected<TriangleMesh> ElementBuilder::take() {
     }
     if (Status sorted = sort_nodes(); !sorted) return sorted.error();
     if (Status numbered = number_corners(); !numbered) return numbered.error();
+    if (Status sorted = sort_elements(); !sorted) return sorted.error();
     if (!sets_.empty()) {
-        sort_elements();
         if (Status filled = fill_sets(); !filled) return filled.error();
         make_regions();
     }

@@ -45,8 +45,8 @@ public:
 
     /// The mesh. Where sets have members, faces that are in the same sets are a region, numbered from 1 in order of their first
     /// face, and 0 are those in none; else regions are those given with the elements, none when all are 0.
-    /// \return INDEX_OUT_OF_RANGE for a node that does not exist; MALFORMED_INPUT for a node that is defined twice in different
-    /// places or an unknown set; UNSUPPORTED for a file of solids; LIMIT_EXCEEDED.
+    /// \return INDEX_OUT_OF_RANGE for a node that does not exist; MALFORMED_INPUT for an element that is defined twice, a node
+    /// that is so in different places, or an unknown set; UNSUPPORTED for a file of solids; LIMIT_EXCEEDED.
     [[nodiscard]] Expected<TriangleMesh> take();
 
 private:
@@ -65,10 +65,15 @@ private:
         std::int64_t step = 1;
         std::size_t place = 0;
     };
+    struct Other {
+        std::string name;
+        std::size_t place = 0;     // where it is named
+        std::uint32_t number = 0;  // of the set, once all are known
+    };
     struct Set {
         std::string name;
         std::vector<Range> ranges;
-        std::vector<std::pair<std::string, std::size_t>> others;  // and where each is named
+        std::vector<Other> others;
     };
 
     [[nodiscard]] Set& set(const std::string& name);
@@ -76,8 +81,10 @@ private:
     [[nodiscard]] Status sort_nodes();
     [[nodiscard]] std::optional<std::uint32_t> find_node(std::int64_t id) const;
     [[nodiscard]] Status number_corners();
-    [[nodiscard]] Status collect_members(std::size_t set, std::vector<std::size_t>& members) const;
-    void sort_elements();
+    [[nodiscard]] Status count_member(std::size_t place);
+    [[nodiscard]] Status find_others();
+    [[nodiscard]] Status collect_members(std::uint32_t set, std::vector<std::uint32_t>& members);
+    [[nodiscard]] Status sort_elements();
     [[nodiscard]] Status put_into_set(const Range& range, std::uint32_t number);
     [[nodiscard]] Status fill_sets();
     void make_regions();
@@ -96,6 +103,9 @@ private:
     std::vector<Set> sets_;
     std::map<std::string, std::size_t> set_numbers_;   // by name in upper case
     std::vector<std::vector<std::uint32_t>> sets_of_;  // of each face, ascending
+    static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
+    std::vector<std::uint32_t> collected_for_;         // by set: the last one it was collected for
+    std::map<std::string, std::size_t> region_names_;  // and their places in the mesh's sets
     std::uint64_t memberships_ = 0;
     std::uint64_t solids_ = 0;
 };

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -8,21 +11,29 @@
 
 namespace vsplit {
 
-/// Names that a file gives to the faces that follow, up to the next name: OBJ's groups, STL's solids.
+/// Names that a file gives to the faces that follow, up to the next names: OBJ's groups, of which faces may be in several, STL's
+/// solids.
 class GroupRuns {
 public:
-    /// From face `first_face` on faces are in `name`, which may have been given before.
-    void begin(std::string_view name, std::uint32_t first_face) { runs_.push_back({name, first_face}); }
+    /// What one group that holds all faces is. OBJ names groups only where there are some; an STL always names its solid.
+    enum class Lone { kIsGroup, kIsNone };
 
-    /// Numbers the groups that have faces from 1 in order of their first; nothing where all faces are in one, or in none.
-    /// Faces before the first name, and those in a group without a name, are in region 0.
-    void give_to(TriangleMesh& mesh) const;
+    /// From face `first_face` on faces are in the groups `names`, which may have been given before; empty names are none.
+    void begin(std::span<const std::string_view> names, std::uint32_t first_face);
+
+    /// Faces that are in the same groups become a region, numbered from 1 in order of their first; 0 are those in none. Each
+    /// group that has faces becomes a set. Nothing where all faces are in none.
+    void give_to(TriangleMesh& mesh, Lone lone) const;
 
 private:
+    using Groups = std::vector<std::uint32_t>;  // numbers of names, ascending
+
     struct Run {
-        std::string_view name;
+        std::uint32_t groups = 0;  // in groups_
         std::uint32_t first_face = 0;
     };
+    std::map<std::string, std::uint32_t, std::less<>> names_;
+    std::map<Groups, std::uint32_t> groups_;
     std::vector<Run> runs_;
 };
 

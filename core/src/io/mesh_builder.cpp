@@ -1,5 +1,10 @@
 #include "io/mesh_builder.h"
 
+#include <algorithm>
+#include <vector>
+
+#include "io/cut_polygon.h"
+
 namespace vsplit {
 
 Status check_face_limit(std::uint64_t faces, std::uint32_t max_faces, Place place) {
@@ -67,10 +72,40 @@ Status MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, Place pl
     }
     if (const Status status = check_face_limit(mesh_.faces.size() + corners.size() - 2, max_faces_, place); !status)
         return status.error();
+    const Polygon polygon{mesh_.face_count(), static_cast<std::uint32_t>(corners.size()), place};
     for (std::size_t corner = 2; corner < corners.size(); ++corner) {
         mesh_.faces.push_back({corners[0], corners[corner - 1], corners[corner]});
     }
+    if (corners.size() == 3) return Done{};
+    if (*std::max_element(corners.begin(), corners.end()) < vertex_count()) return cut(polygon);
+    waiting_.push_back(polygon);
     return Done{};
+}
+
+Status MeshBuilder::cut(const Polygon& polygon) {
+    const auto faces = std::span(mesh_.faces).subspan(polygon.first_face, polygon.corners - 2);
+    std::vector<std::uint32_t> corners = {faces[0][0], faces[0][1]};
+    for (const Triangle& face : faces) corners.push_back(face[2]);
+    std::vector<Vec3> positions;
+    positions.reserve(corners.size());
+    for (const std::uint32_t corner : corners) positions.push_back(mesh_.positions[corner]);
+    const std::vector<Triangle> triangles = cut_polygon(positions);
+    if (triangles.empty()) {
+        return read_error(Cause::kLimitExceeded, polygon.place,
+                          "a face of " + std::to_string(corners.size()) +
+                              " corners is not convex and takes too long to cut; cut it into triangles first");
+    }
+    std::transform(triangles.begin(), triangles.end(), faces.begin(), [&](const Triangle& t) {
+        return Triangle{corners[t[0]], corners[t[1]], corners[t[2]]};
+    });
+    return Done{};
+}
+
+Expected<TriangleMesh> MeshBuilder::take() {
+    for (const Polygon& polygon : waiting_) {
+        if (Status done = cut(polygon); !done) return done.error();
+    }
+    return std::move(mesh_);
 }
 
 }  // namespace vsplit

@@ -47,15 +47,25 @@ public:
     /// \return INVALID_COORDINATE, LIMIT_EXCEEDED.
     [[nodiscard]] Status add_vertex(const Vec3& position, Place place);
 
-    /// Cuts a polygon into a fan of triangles around its first corner.
+    /// Cuts a polygon into triangles (see cut_polygon), at the end where it names vertices that are not there yet.
     /// \return MALFORMED_INPUT for fewer than 3 corners, LIMIT_EXCEEDED. Indices are the caller's to check.
     [[nodiscard]] Status add_polygon(std::span<const std::uint32_t> corners, Place place);
 
     [[nodiscard]] std::uint32_t vertex_count() const { return mesh_.vertex_count(); }
     [[nodiscard]] std::uint32_t face_count() const { return mesh_.face_count(); }
-    [[nodiscard]] TriangleMesh take() { return std::move(mesh_); }
+    /// \pre all vertices that faces name are there. \return LIMIT_EXCEEDED for a polygon that takes too long to cut.
+    [[nodiscard]] Expected<TriangleMesh> take();
 
 private:
+    struct Polygon {
+        std::uint32_t first_face = 0;  // of the fan that is its triangles for now
+        std::uint32_t corners = 0;
+        Place place;
+    };
+
+    [[nodiscard]] Status cut(const Polygon& polygon);
+
+    std::vector<Polygon> waiting_;  // for vertices
     std::uint32_t max_faces_;
     TriangleMesh mesh_;
 };

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/read_error.h"
 #include "io/xml_stream.h"
 #include "vsplit/base/expected.h"
 #include "vsplit/mesh/length_unit.h"
@@ -26,7 +27,7 @@ struct Reference3mf {
     std::string part;  ///< the file in the archive that has it; empty: the one that names it
     std::uint64_t object = 0;
     std::optional<Placement3mf> placement;
-    std::size_t line = 0;
+    Place place = at_line(1);
 };
 
 /// A named set of an object's triangles, as ranges, first and last.
@@ -38,7 +39,7 @@ struct TriangleSet3mf {
 /// An object of a model: a mesh, or components.
 struct Object3mf {
     std::uint64_t id = 0;
-    std::size_t line = 0;
+    Place place = at_line(1);
     std::string name;
     bool is_support = false;  ///< for the printer alone; no part of the shape
     TriangleMesh mesh;
@@ -66,7 +67,8 @@ struct Room3mf {
 
 /// Reads a model file and takes what it holds off `room`. What references name is not looked at.
 /// \return UNKNOWN_FORMAT for other XML; UNSUPPORTED for an extension that the file requires and that is not known here;
-/// MALFORMED_INPUT, INVALID_COORDINATE, INDEX_OUT_OF_RANGE, LIMIT_EXCEEDED; what XmlStream returns. All with the line.
+/// MALFORMED_INPUT, INVALID_COORDINATE, INDEX_OUT_OF_RANGE, LIMIT_EXCEEDED; what XmlStream returns. All with the place.
+/// The file is read to its end, so that its checksum is right where a model is returned.
 [[nodiscard]] Expected<Model3mf> read_model_3mf(std::string part, XmlStream xml, Room3mf& room);
 
 /// How 3MF writes a unit, as "millimeter".

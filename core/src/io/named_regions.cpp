@@ -6,9 +6,13 @@
 #include <set>
 
 #include "io/text_lines.h"
+#include "io/writers.h"
 
 namespace vsplit {
 namespace {
+
+/// CalculiX and Abaqus take 80 characters; the rest is for a number here and what a deck hangs on.
+constexpr std::size_t kLongestName = 60;
 
 std::string solver_name(const std::string& name, std::set<std::string>& taken) {
     std::string good = name;
@@ -16,6 +20,7 @@ std::string solver_name(const std::string& name, std::set<std::string>& taken) {
         const bool keeps = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
         if (!keeps) c = '_';
     }
+    good.resize(std::min(good.size(), kLongestName));
     if (good.empty() || std::isalpha(static_cast<unsigned char>(good.front())) == 0) good.insert(0, "S_");
     std::string different = good;
     for (int number = 2; !taken.insert(upper_case(different)).second; ++number) different = good + "_" + std::to_string(number);
@@ -45,14 +50,42 @@ std::vector<NamedRegion> named_regions(const TriangleMesh& mesh) {
     return result;
 }
 
-std::vector<FaceSet> sets_for_solvers(const TriangleMesh& mesh) {
+std::optional<TriangleMesh> with_regions_up_to(std::uint32_t largest, const TriangleMesh& mesh) {
+    std::set<std::uint32_t> used(mesh.regions.begin(), mesh.regions.end());
+    if (used.empty() || *used.rbegin() <= largest) return {};
+    used.insert(0);
+    std::map<std::uint32_t, std::uint32_t> number;
+    for (const std::uint32_t region : used) {
+        const auto next = static_cast<std::uint32_t>(number.size());
+        number[region] = next <= largest ? next : 0;
+    }
+    TriangleMesh small = mesh;
+    for (std::uint32_t& region : small.regions) region = number[region];
+    small.sets = sets_with_faces(mesh);
+    for (FaceSet& set : small.sets) {
+        std::erase_if(set.regions, [&](std::uint32_t region) { return used.count(region) == 0; });
+        for (std::uint32_t& region : set.regions) region = number[region];
+    }
+    return small;
+}
+
+std::vector<FaceSet> sets_with_faces(const TriangleMesh& mesh) {
+    const std::set<std::uint32_t> used(mesh.regions.begin(), mesh.regions.end());
     std::vector<FaceSet> sets = mesh.sets;
+    std::erase_if(sets, [&](const FaceSet& s) {
+        return std::none_of(s.regions.begin(), s.regions.end(), [&](std::uint32_t region) { return used.count(region) > 0; });
+    });
+    return sets;
+}
+
+std::vector<FaceSet> sets_for_solvers(const TriangleMesh& mesh) {
+    std::vector<FaceSet> sets = sets_with_faces(mesh);
     std::set<std::uint32_t> named{0};
     for (const FaceSet& s : sets) named.insert(s.regions.begin(), s.regions.end());
     for (const NamedRegion& region : named_regions(mesh)) {
         if (named.count(region.region) == 0) sets.push_back({region.name, {region.region}});
     }
-    std::set<std::string> taken;
+    std::set<std::string> taken{upper_case(kAllElements)};
     for (FaceSet& s : sets) s.name = solver_name(s.name, taken);
     return sets;
 }

@@ -1,48 +1,16 @@
 #include "io/number_stream.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "base/byte_order.h"
 #include "io/text_lines.h"
 
 namespace vsplit {
 namespace {
 
-using Kind = NumberStream::Kind;
-
-constexpr std::array<std::size_t, 10> kSizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
-
 bool is_white(std::byte b) {
     const auto c = static_cast<char>(b);
     return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
-double load_number(const std::byte* from, Kind kind, std::endian order) {
-    switch (kind) {
-        case Kind::kInt8:
-            return load<std::int8_t>(from, order);
-        case Kind::kUint8:
-            return load<std::uint8_t>(from, order);
-        case Kind::kInt16:
-            return load<std::int16_t>(from, order);
-        case Kind::kUint16:
-            return load<std::uint16_t>(from, order);
-        case Kind::kInt32:
-            return load<std::int32_t>(from, order);
-        case Kind::kUint32:
-            return load<std::uint32_t>(from, order);
-        case Kind::kInt64:
-            return static_cast<double>(load<std::int64_t>(from, order));
-        case Kind::kUint64:
-            return static_cast<double>(load<std::uint64_t>(from, order));
-        case Kind::kFloat32:
-            return load<float>(from, order);
-        case Kind::kFloat64:
-            break;
-    }
-    return load<double>(from, order);
 }
 
 constexpr double kLargestExact = 9007199254740992;  // 2^53: integers are kept in doubles
@@ -106,7 +74,7 @@ double NumberStream::number(Kind kind, const char* what) {
         return 0;
     }
     last_ = at_;
-    const std::size_t size = kSizes[static_cast<std::size_t>(kind)];
+    const std::size_t size = size_of(kind);
     if (left() < size) {
         fail(Cause::kTruncatedInput, "the file ends where " + std::string(what) + " should follow");
         return 0;

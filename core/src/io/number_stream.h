@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/number_kind.h"
 #include "io/read_error.h"
 #include "vsplit/base/expected.h"
 
@@ -17,7 +18,7 @@ namespace vsplit {
 /// so that whoever reads asks `ok` where it matters, at least once a loop.
 class NumberStream {
 public:
-    enum class Kind { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat32, kFloat64 };
+    using Kind = NumberKind;
 
     explicit NumberStream(std::span<const std::byte> bytes) : bytes_(bytes) {}
 

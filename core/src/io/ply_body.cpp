@@ -4,42 +4,14 @@
 #include <optional>
 #include <string>
 
-#include "base/byte_order.h"
-
 namespace vsplit {
-namespace {
-
-double load_number(const std::byte* from, PlyType type, std::endian order) {
-    switch (type) {
-        case PlyType::kInt8:
-            return load<std::int8_t>(from, order);
-        case PlyType::kUint8:
-            return load<std::uint8_t>(from, order);
-        case PlyType::kInt16:
-            return load<std::int16_t>(from, order);
-        case PlyType::kUint16:
-            return load<std::uint16_t>(from, order);
-        case PlyType::kInt32:
-            return load<std::int32_t>(from, order);
-        case PlyType::kUint32:
-            return load<std::uint32_t>(from, order);
-        case PlyType::kFloat32:
-            return load<float>(from, order);
-        case PlyType::kFloat64:
-            break;
-    }
-    return load<double>(from, order);
-}
-
-}  // namespace
-
 PlyBinaryBody::PlyBinaryBody(std::span<const std::byte> bytes, const PlyHeader& header)
     : bytes_(bytes),
       at_(header.body_offset),
       order_(header.encoding == PlyEncoding::kBigEndian ? std::endian::big : std::endian::little) {}
 
 Expected<double> PlyBinaryBody::read(PlyType type) {
-    const std::size_t size = ply_size(type);
+    const std::size_t size = size_of(type);
     if (size > left()) return truncated();
     const double value = load_number(bytes_.data() + at_, type, order_);
     at_ += size;
@@ -47,8 +19,8 @@ Expected<double> PlyBinaryBody::read(PlyType type) {
 }
 
 Status PlyBinaryBody::skip(PlyType type, std::uint64_t count) {
-    if (count > left() / ply_size(type)) return truncated();
-    at_ += count * ply_size(type);
+    if (count > left() / size_of(type)) return truncated();
+    at_ += count * size_of(type);
     return Done{};
 }
 

@@ -127,30 +127,10 @@ private:
 
 }  // namespace
 
-std::size_t ply_size(PlyType type) {
-    switch (type) {
-        case PlyType::kInt8:
-        case PlyType::kUint8:
-            return 1;
-        case PlyType::kInt16:
-        case PlyType::kUint16:
-            return 2;
-        case PlyType::kInt32:
-        case PlyType::kUint32:
-        case PlyType::kFloat32:
-            return 4;
-        case PlyType::kFloat64:
-            return 8;
-    }
-    return 8;
-}
-
-bool is_integer(PlyType type) { return type != PlyType::kFloat32 && type != PlyType::kFloat64; }
-
 std::size_t PlyElement::least_bytes(PlyEncoding encoding) const {
     std::size_t bytes = 0;
     for (const PlyProperty& property : properties) {
-        const std::size_t binary = ply_size(property.is_list ? property.count_type : property.type);
+        const std::size_t binary = size_of(property.is_list ? property.count_type : property.type);
         bytes += encoding == PlyEncoding::kAscii ? 2 : binary;  // a digit and what divides it from the next
     }
     return bytes;

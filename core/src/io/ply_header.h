@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/number_kind.h"
 #include "io/read_error.h"
 #include "vsplit/base/expected.h"
 
@@ -13,10 +14,7 @@ namespace vsplit {
 
 enum class PlyEncoding { kAscii, kLittleEndian, kBigEndian };
 
-enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
-
-[[nodiscard]] std::size_t ply_size(PlyType type);
-[[nodiscard]] bool is_integer(PlyType type);
+using PlyType = NumberKind;
 
 struct PlyProperty {
     std::string name;

@@ -53,13 +53,14 @@ Expected<std::string> root_of(const ZipReader& archive, Parts& parts) {
     if (relationships == nullptr) return std::string(kUsualModel);
     Expected<XmlStream> xml = parts.open(*relationships);
     if (!xml) return xml.error();
-    for (;;) {
+    std::optional<std::string> root;
+    for (;;) {  // to the end, where the checksum is
         const Expected<std::optional<XmlTag>> tag = xml->next();
         if (!tag) return tag.error();
-        if (!*tag) return std::string(kUsualModel);
-        if ((*tag)->name != "Relationship" || (*tag)->attribute("Type") != kModelType) continue;
+        if (!*tag) return root.value_or(std::string(kUsualModel));
+        if (root || (*tag)->attribute("Type") != kModelType) continue;
         const std::string target = xml_unescaped((*tag)->attribute("Target"));
-        return target.substr(target.starts_with('/') ? 1 : 0);
+        root = target.substr(target.starts_with('/') ? 1 : 0);
     }
 }
 

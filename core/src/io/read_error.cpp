@@ -7,7 +7,9 @@ namespace vsplit {
 
 Error read_error(Cause cause, Place place, std::string_view what) {
     std::string message(place.unit);
-    message.append(" ").append(std::to_string(place.number)).append(": ").append(what);
+    message.append(" ").append(std::to_string(place.number));
+    if (place.column != 0) message.append(", column ").append(std::to_string(place.column));
+    message.append(": ").append(what);
     return {cause, std::move(message), ""};
 }
 

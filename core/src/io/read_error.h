@@ -8,14 +8,15 @@
 
 namespace vsplit {
 
-/// Where in a file: "line 12" (from 1) or "byte 84" (from 0).
+/// Where in a file: "line 12" (from 1) or "byte 84" (from 0); "line 1, column 9000" where a column is given.
 struct Place {
     std::string_view unit;
     std::size_t number = 0;
+    std::size_t column = 0;  ///< from 1; 0: not told
 };
 
-[[nodiscard]] inline Place at_line(std::size_t line) { return {"line", line}; }
-[[nodiscard]] inline Place at_byte(std::size_t byte) { return {"byte", byte}; }
+[[nodiscard]] inline Place at_line(std::size_t line, std::size_t column = 0) { return {"line", line, column}; }
+[[nodiscard]] inline Place at_byte(std::size_t byte) { return {"byte", byte, 0}; }
 
 /// "line 12: what".
 [[nodiscard]] Error read_error(Cause cause, Place place, std::string_view what);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <limits>
@@ -8,6 +9,7 @@
 
 #include "io/element_builder.h"
 #include "io/number_stream.h"
+#include "io/physical_groups.h"
 #include "io/read_error.h"
 #include "io/readers.h"
 #include "io/text_lines.h"
@@ -34,6 +36,14 @@ std::optional<MshElement> msh_element(std::int64_t type) {
     return found == known.end() ? std::nullopt : std::optional(found->second);
 }
 
+struct MshFace {
+    std::int64_t tag = 0;
+    std::size_t count = 0;  // of corners
+    std::array<std::int64_t, 4> corners{};
+    std::vector<std::uint32_t> groups{};
+    Place place{};
+};
+
 /// Reads the faces of a Gmsh mesh file, 2.2 or 4.1, text or bytes. Regions are physical surfaces.
 class MshFile {
 public:
@@ -43,10 +53,9 @@ public:
         while (in_.ok() && in_.more()) read_section();
         if (in_.ok() && version_ == 0) in_.fail(Cause::kMalformedInput, "expected '$MeshFormat', which the file does not have");
         if (!in_.ok()) return in_.error();
-        for (const auto& [tag, name] : names_) {
-            if (!is_4()) builder_.name_region(std::string(name), static_cast<std::uint32_t>(tag));
-        }
-        return builder_.take();
+        Expected<TriangleMesh> mesh = builder_.take();
+        if (mesh) groups_.apply(*mesh);
+        return mesh;
     }
 
 private:
@@ -112,7 +121,7 @@ private:
             std::string_view name = trimmed(in_.line());
             if (name.size() < 2 || name.front() != '"' || name.back() != '"')
                 return in_.fail(Cause::kMalformedInput, "expected a name in quotes, " + found(name));
-            if (dimension == 2) names_[static_cast<std::int64_t>(tag)] = name.substr(1, name.size() - 2);
+            if (dimension == 2) groups_.name(static_cast<std::uint32_t>(tag), std::string(name.substr(1, name.size() - 2)));
         }
     }
 
@@ -128,18 +137,16 @@ private:
         const std::int64_t tag = in_.integer(Kind::kInt32, "an entity's tag");
         for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) static_cast<void>(in_.number(Kind::kFloat64, "a bound of an entity"));
         const std::uint64_t physical = in_.count(size_kind_, "a number of physical tags", kMost);
-        std::uint32_t region = 0;  // the first of the entity's groups; the others are sets
-        for (std::uint64_t i = 0; i < physical && in_.ok(); ++i) {
-            const std::int64_t group = std::abs(in_.integer(Kind::kInt32, "a physical tag"));
-            if (i == 0) region = static_cast<std::uint32_t>(group);
-            if (const auto named = names_.find(group); dimension == 2 && named != names_.end())
-                builder_.name_region(std::string(named->second), region);
-        }
-        if (dimension == 2) physical_of_[tag] = region;
+        std::vector<std::uint32_t> groups;
+        for (std::uint64_t i = 0; i < physical && in_.ok(); ++i) groups.push_back(read_group());
+        if (dimension == 2) combination_of_[tag] = groups_.combination(groups);
         if (dimension == 0) return;
         const std::uint64_t bounding = in_.count(size_kind_, "a number of bounding entities", kMost);
         for (std::uint64_t i = 0; i < bounding && in_.ok(); ++i) static_cast<void>(in_.integer(Kind::kInt32, "an entity's tag"));
     }
+
+    /// Its sign says how the surface is turned.
+    std::uint32_t read_group() { return static_cast<std::uint32_t>(std::abs(in_.integer(Kind::kInt32, "a physical tag"))); }
 
     Vec3 read_point() {
         Vec3 point;
@@ -179,11 +186,12 @@ private:
             const std::int64_t entity = in_.integer(Kind::kInt32, "an entity's tag");
             const std::optional<MshElement> type = read_type();
             const std::uint64_t count = in_.count(size_kind_, "a number of elements", in_.left());
-            const auto physical = physical_of_.find(entity);
-            const std::uint32_t region = physical == physical_of_.end() ? 0 : physical->second;
+            const auto combination = combination_of_.find(entity);
+            const std::uint32_t region = combination == combination_of_.end() ? 0 : combination->second;
             for (std::uint64_t i = 0; i < count && in_.ok(); ++i) {
                 const std::uint64_t tag = in_.count(size_kind_, "an element's tag", kMost);
-                read_corners(static_cast<std::int64_t>(tag), *type, size_kind_, region);
+                const MshFace face = read_element(static_cast<std::int64_t>(tag), *type, size_kind_);
+                if (in_.ok() && type->corners > 0) add_face(face, region);
             }
         }
     }
@@ -195,15 +203,18 @@ private:
         return type;
     }
 
-    void read_corners(std::int64_t tag, const MshElement& type, Kind kind, std::uint32_t region) {
-        std::array<std::int64_t, 4> corners{};
+    MshFace read_element(std::int64_t tag, const MshElement& type, Kind kind) {
+        MshFace face{tag, type.corners, {}, {}, in_.place()};
         for (std::size_t i = 0; i < type.nodes; ++i) {
             const std::uint64_t node = in_.count(kind, "a node of an element", kMost);
-            if (i < type.corners) corners[i] = static_cast<std::int64_t>(node);
+            if (i < type.corners) face.corners[i] = static_cast<std::int64_t>(node);
         }
-        if (!in_.ok()) return;
-        if (type.dimension == 3) builder_.skip_solid();
-        if (type.corners > 0) in_.keep(builder_.add_element(tag, std::span(corners).first(type.corners), in_.place(), region));
+        if (in_.ok() && type.dimension == 3) builder_.skip_solid();
+        return face;
+    }
+
+    void add_face(const MshFace& face, std::uint32_t region) {
+        in_.keep(builder_.add_element(face.tag, std::span(face.corners).first(face.count), face.place, region));
     }
 
     /// The count is text always; what follows may be bytes.
@@ -228,20 +239,36 @@ private:
                 if (block == 0 && in_.ok()) return in_.fail(Cause::kMalformedInput, "a block has no elements");
                 for (std::uint64_t i = 0; i < block && in_.ok(); ++i, ++done) {
                     if (in_.is_binary()) tag = in_.integer(Kind::kInt32, "an element's number");
-                    read_corners(tag, *type, Kind::kInt32, read_tags(tags));
+                    std::vector<std::uint32_t> groups = read_tags(tags);
+                    MshFace face = read_element(tag, *type, Kind::kInt32);
+                    face.groups = std::move(groups);
+                    if (in_.ok() && type->corners > 0) take_face(std::move(face));
                 }
             }
+            take_face({});
         });
     }
 
-    /// The first tag is the physical one.
-    std::uint32_t read_tags(std::uint64_t count) {
-        std::int64_t physical = 0;
+    /// The first tag is the physical one; 0 is none.
+    std::vector<std::uint32_t> read_tags(std::uint64_t count) {
+        std::vector<std::uint32_t> groups;
         for (std::uint64_t i = 0; i < count && in_.ok(); ++i) {
-            const std::int64_t tag = in_.integer(Kind::kInt32, "a tag of an element");
-            if (i == 0) physical = tag;
+            const std::uint32_t tag = read_group();
+            if (i == 0 && tag != 0) groups.push_back(tag);
         }
-        return static_cast<std::uint32_t>(std::abs(physical));
+        return groups;
+    }
+
+    /// Gmsh writes an element of several groups once for each, one after the other: it is one face in all of them. The one before
+    /// is added once another comes.
+    void take_face(MshFace face) {
+        MshFace& last = last_face_;
+        const bool again = face.count == last.count && face.corners == last.corners && face.groups.size() == 1 &&
+                           !last.groups.empty() &&
+                           std::find(last.groups.begin(), last.groups.end(), face.groups[0]) == last.groups.end();
+        if (again) return last.groups.push_back(face.groups[0]);
+        if (last.count > 0 && in_.ok()) add_face(last, groups_.combination(last.groups));
+        last = std::move(face);
     }
 
     static constexpr std::uint64_t kMost = 0xFFFFFFFE;
@@ -252,8 +279,9 @@ private:
     bool binary_ = false;
     std::endian order_ = std::endian::little;
     Kind size_kind_ = Kind::kUint64;
-    std::map<std::int64_t, std::string_view> names_;     // of physical surfaces
-    std::map<std::int64_t, std::uint32_t> physical_of_;  // of surfaces
+    PhysicalGroups groups_;
+    std::map<std::int64_t, std::uint32_t> combination_of_;  // of groups, by the surface
+    MshFace last_face_;                                     // of 2.2
 };
 
 }  // namespace

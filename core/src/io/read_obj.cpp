@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +13,17 @@
 namespace vsplit {
 namespace {
 
-/// Reads the `v` and `f` lines of an OBJ; the rest of its many kinds of line are skipped.
+/// Keywords of what makes no face, or is only told of the faces: Wavefront's format 3.0 and its older statements. Those of curves
+/// and free-form surfaces count where a `surf` uses them.
+constexpr auto kPassedOver = std::to_array<std::string_view>(
+    {"vn",   "vt",    "vp",       "o",        "s",          "l",         "p",     "mg",    "mtllib", "usemtl", "usemap", "maplib",
+     "lod",  "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech", "stech", "cstype", "deg",    "bmat",   "step",
+     "parm", "trim",  "hole",     "scrv",     "sp",         "end",       "con",   "curv",  "curv2",  "res",    "cdc",    "cdp"});
+
+/// Keywords of what makes surface that is not read.
+constexpr auto kNotRead = std::to_array<std::string_view>({"surf", "call", "csh", "bsp", "bzp"});
+
+/// Reads the `v`, `f` and `g` lines of an OBJ; other lines that it may have are passed over by name.
 class ObjText {
 public:
     ObjText(std::string_view text, std::uint32_t max_faces) : lines_(text), builder_(max_faces) {}
@@ -21,8 +33,8 @@ public:
             if (const Status status = read_line(); !status) return status.error();
         }
         if (const Status status = check_forward_references(); !status) return status.error();
-        TriangleMesh mesh = builder_.take();
-        groups_.give_to(mesh);
+        Expected<TriangleMesh> mesh = builder_.take();
+        if (mesh) groups_.give_to(*mesh, GroupRuns::Lone::kIsGroup);
         return mesh;
     }
 
@@ -52,11 +64,24 @@ private:
         const std::string_view keyword = next_word(line_);
         if (keyword == "v") return read_vertex();
         if (keyword == "f" || keyword == "fo") return read_face();  // "fo" is how old files spell it
-        if (keyword == "g") groups_.begin(trimmed(line_), builder_.face_count());
-        const char first = keyword.empty() ? '#' : keyword.front();
-        const bool skipped = first == '#' || (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
-        if (skipped) return Done{};
+        if (keyword == "g") return begin_groups();
+        const auto is_one_of = [&](const auto& words) { return std::find(words.begin(), words.end(), keyword) != words.end(); };
+        if (keyword.empty() || keyword.front() == '#' || is_one_of(kPassedOver)) return Done{};
+        if (is_one_of(kNotRead)) {
+            return read_error(
+                Cause::kUnsupported, at_line(number_),
+                quoted(keyword) + " is not read; faces ('f') are: convert free-form surfaces and other files to them");
+        }
         return malformed("expected a keyword such as 'v' or 'f', " + found(keyword));
+    }
+
+    /// The faces that follow are in each of the groups that are named.
+    Status begin_groups() {
+        std::vector<std::string_view> names;
+        for (std::string_view name = next_word(line_); !name.empty() && name.front() != '#'; name = next_word(line_))
+            names.push_back(name);
+        groups_.begin(names, builder_.face_count());
+        return Done{};
     }
 
     Status read_vertex() {

@@ -11,8 +11,8 @@
 namespace vsplit {
 namespace {
 
-/// Reads an OFF: `OFF`, the counts, a line a vertex, a line a face. What follows a position (normals, colours) or a face's
-/// indices (a colour) on its line is skipped.
+/// Reads an OFF: `OFF`, which may be left out, the counts, a line a vertex, a line a face. What follows a position (normals,
+/// colours) or a face's indices (a colour) on its line is skipped.
 class OffText {
 public:
     OffText(std::string_view text, std::uint32_t max_faces) : lines_(text), builder_(max_faces) {}
@@ -34,7 +34,12 @@ private:
 
     Status read_keyword() {
         if (!next_line()) return truncated("'OFF'");
+        const std::string_view whole = line_;
         const std::string_view keyword = next_word(line_);
+        if (parse_integer(keyword)) {
+            line_ = whole;  // the counts
+            return Done{};
+        }
         if (!is_off_keyword(keyword)) return malformed("expected 'OFF', " + found(keyword));
         std::string_view rest = line_;
         if (next_word(rest) != "BINARY") return Done{};

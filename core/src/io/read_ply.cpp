@@ -9,8 +9,8 @@
 #include "io/ply_header.h"
 #include "io/read_error.h"
 #include "io/readers.h"
+#include "io/region_value.h"
 #include "io/text_lines.h"
-#include "io/vtk_cells.h"
 
 namespace vsplit {
 namespace {
@@ -60,9 +60,9 @@ public:
             if (const Status status = read_element(element); !status) return status.error();
         }
         if (const Status status = body_.end_file(); !status) return status.error();
-        TriangleMesh mesh = builder_.take();
+        Expected<TriangleMesh> mesh = builder_.take();
         const bool some = std::any_of(regions_.begin(), regions_.end(), [](std::uint32_t region) { return region != 0; });
-        if (some) mesh.regions = std::move(regions_);
+        if (mesh && some) mesh->regions = std::move(regions_);
         return mesh;
     }
 
@@ -74,6 +74,8 @@ private:
         if (!fits) return fits.error();
         if (element.name == "vertex") return read_vertices(element);
         if (element.name == "face") return read_faces(element);
+        if (element.name == "tristrips" && element.count > 0)
+            return read_error(Cause::kUnsupported, at_line(element.line), "triangle strips are not read; element 'face' is");
         return read_rows(element, [&](const PlyProperty& property, std::size_t) { return skip(property); });
     }
 
@@ -130,7 +132,7 @@ private:
     /// The number of the property that says which region a face is in; beyond all where there is none.
     static std::size_t find_region(const PlyElement& face) {
         const auto found = std::find_if(face.properties.begin(), face.properties.end(), [](const PlyProperty& property) {
-            return !property.is_list && is_integer(property.type) && is_region_name(property.name);
+            return !property.is_list && is_region_name(property.name);
         });
         return static_cast<std::size_t>(found - face.properties.begin());
     }
@@ -139,9 +141,9 @@ private:
         const Place place = body_.place();
         const Expected<double> value = body_.read(property.type);
         if (!value) return value.error();
-        if (!(*value >= 0))
-            return read_error(Cause::kMalformedInput, place, "a face's region is " + to_text(*value) + "; 0 or more is accepted");
-        region_ = static_cast<std::uint32_t>(*value);
+        const Expected<std::uint32_t> region = region_of(*value, place);
+        if (!region) return region.error();
+        region_ = *region;
         return Done{};
     }
 

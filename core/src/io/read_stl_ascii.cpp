@@ -23,7 +23,7 @@ public:
         }
         if (error_) return *std::move(error_);
         TriangleMesh mesh = soup_.take();
-        solids_.give_to(mesh);
+        solids_.give_to(mesh, GroupRuns::Lone::kIsNone);
         return mesh;
     }
 
@@ -67,8 +67,8 @@ private:
             fail_word("'solid'", first);
             return false;
         }
-        std::string_view name = trimmed(rest_);
-        solids_.begin(name, static_cast<std::uint32_t>(soup_.face_count()));
+        const std::string_view name = trimmed(rest_);
+        solids_.begin({&name, 1}, static_cast<std::uint32_t>(soup_.face_count()));
         rest_ = {};  // its name
         for (;;) {
             const std::string_view found = word();

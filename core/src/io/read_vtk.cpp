@@ -1,5 +1,6 @@
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "io/number_stream.h"
 #include "io/read_error.h"
 #include "io/readers.h"
+#include "io/region_value.h"
 #include "io/text_lines.h"
 #include "io/vtk_cells.h"
 
@@ -49,7 +51,8 @@ public:
 
     Expected<TriangleMesh> read() {
         read_header();
-        while (in_.ok() && !done_) read_part();
+        while (in_.ok() && in_.more()) read_part();
+        if (grid_ && !has_types_ && cells_.cell_count() > 0) in_.fail(Cause::kTruncatedInput, "the file ends before CELL_TYPES");
         if (!in_.ok()) return in_.error();
         return cells_.take();
     }
@@ -74,23 +77,16 @@ private:
     }
 
     void read_part() {
-        if (!in_.more()) {
-            done_ = true;
-            return;
-        }
         const std::string keyword = upper_case(in_.word());
+        if (keyword == "METADATA") return skip_metadata();
+        if (keyword == "FIELD") return read_field();
+        if (keyword == "POINT_DATA" || keyword == "CELL_DATA") return begin_data(keyword == "CELL_DATA");
+        if (in_data_) return read_attribute(keyword);
         if (keyword == "POINTS") return read_points();
-        if (keyword == "POLYGONS" || (grid_ && keyword == "CELLS")) return read_cells();
+        if (keyword == "POLYGONS" || (grid_ && keyword == "CELLS")) return read_cells(VtkCells::kPolygon);
+        if (keyword == "TRIANGLE_STRIPS") return read_cells(VtkCells::kStrip);
         if (keyword == "CELL_TYPES") return read_types();
         if (keyword == "VERTICES" || keyword == "LINES") return skip_cells();
-        if (keyword == "TRIANGLE_STRIPS") return in_.fail(Cause::kUnsupported, "TRIANGLE_STRIPS are not read; POLYGONS are");
-        if (keyword == "CELL_DATA") return read_cell_data();
-        if (keyword == "METADATA") return skip_metadata();
-        if (keyword == "FIELD") return read_field(kMost, false);
-        if (keyword == "POINT_DATA") {
-            done_ = !read_data_until_cells();
-            return;
-        }
         in_.fail(Cause::kMalformedInput, "expected a part of a dataset, " + found(keyword));
     }
 
@@ -123,27 +119,47 @@ private:
         });
     }
 
-    std::vector<std::int64_t> read_integers(std::uint64_t count, Kind kind, const char* what) {
-        std::vector<std::int64_t> numbers;
-        for (std::uint64_t i = 0; i < count && in_.ok(); ++i) {
-            numbers.push_back(in_.integer(kind, what));
-            cell_place_ = in_.place();
-        }
+    /// Of the numbers that follow: they are read again for it.
+    [[nodiscard]] PlaceOf places_ahead(Kind kind) const {
+        return [start = in_, kind](std::size_t number) {
+            NumberStream again = start;
+            for (std::size_t i = 0; i <= number && again.ok(); ++i) static_cast<void>(again.number(kind, "a number"));
+            return again.place();
+        };
+    }
+
+    PlacedNumbers<std::int64_t> read_integers(std::uint64_t count, Kind kind, const char* what) {
+        PlacedNumbers<std::int64_t> numbers;
+        with_numbers([&] {
+            numbers.place_of = places_ahead(kind);
+            for (std::uint64_t i = 0; i < count && in_.ok(); ++i) numbers.values.push_back(in_.integer(kind, what));
+        });
         return numbers;
     }
 
     /// To version 4 a cell is its number of points and the points; from 5 on there are offsets and all points.
-    void read_cells() {
+    void read_cells(std::int64_t type) {
+        // The cells' data has strips last, wherever they stand.
+        if (type != VtkCells::kStrip && has_strips_)
+            return in_.fail(Cause::kUnsupported, "POLYGONS behind TRIANGLE_STRIPS are not read; before them they are");
+        has_strips_ = has_strips_ || type == VtkCells::kStrip;
         const std::uint64_t first = in_.count(Kind::kInt64, "the number of cells", in_.left());
         const std::uint64_t second = in_.count(Kind::kInt64, "the number of numbers", in_.left());
         if (!has_offsets()) {
-            with_numbers([&] { cells_.set_legacy(read_integers(second, Kind::kInt32, "a point of a cell")); });
-            if (in_.ok()) in_.keep(cells_.check_count(first, cell_place_));
+            const PlacedNumbers<std::int64_t> runs = read_integers(second, Kind::kInt32, "a point of a cell");
+            if (in_.ok()) in_.keep(cells_.add_runs(runs, first, type));
             return;
         }
-        std::vector<std::int64_t> offsets = read_array("OFFSETS", first);
-        std::vector<std::int64_t> points = read_array("CONNECTIVITY", second);
-        if (in_.ok()) in_.keep(cells_.set_offsets(offsets, std::move(points), cell_place_));
+        const PlacedNumbers<std::int64_t> offsets = read_array("OFFSETS", first);
+        const PlacedNumbers<std::int64_t> points = read_array("CONNECTIVITY", second);
+        if (!in_.ok()) return;
+        if (!offsets.values.empty() && offsets.values[0] != 0) {
+            return in_.fail_at(offsets.place_of(0), Cause::kMalformedInput,
+                               "expected the first offset to be 0, found " + std::to_string(offsets.values[0]));
+        }
+        const auto ends = std::span(offsets.values).subspan(offsets.values.empty() ? 0 : 1);
+        in_.keep(cells_.add_ends(
+            ends, [&](std::size_t i) { return offsets.place_of(i + 1); }, points, type));
     }
 
     /// Whether the word OFFSETS follows: the only sign of it, as versions are often wrong.
@@ -152,12 +168,10 @@ private:
         return ahead.word() == "OFFSETS";
     }
 
-    std::vector<std::int64_t> read_array(std::string_view name, std::uint64_t count) {
+    PlacedNumbers<std::int64_t> read_array(std::string_view name, std::uint64_t count) {
         in_.expect(name);
         const Kind kind = read_kind();
-        std::vector<std::int64_t> numbers;
-        with_numbers([&] { numbers = read_integers(count, kind, "a number of a cell"); });
-        return numbers;
+        return read_integers(count, kind, "a number of a cell");
     }
 
     void skip_cells() {
@@ -169,47 +183,79 @@ private:
             static_cast<void>(read_array("CONNECTIVITY", second));
             cells = first == 0 ? 0 : first - 1;
         } else {
-            with_numbers([&] { static_cast<void>(read_integers(second, Kind::kInt32, "a point of a cell")); });
+            static_cast<void>(read_integers(second, Kind::kInt32, "a point of a cell"));
         }
         cells_.skip_before(cells);
     }
 
     void read_types() {
+        has_types_ = true;
         const std::uint64_t count = in_.count(Kind::kInt64, "the number of cells", in_.left());
-        with_numbers([&] { cells_.set_types(read_integers(count, Kind::kInt32, "a cell's type")); });
+        cells_.set_types(read_integers(count, Kind::kInt32, "a cell's type"));
     }
 
-    void read_cell_data() {
-        const std::uint64_t count = in_.count(Kind::kInt64, "the number of cells", in_.left());
-        while (in_.ok() && in_.more()) {
-            const std::string keyword = upper_case(in_.word());
-            if (keyword == "METADATA") {
-                skip_metadata();
-            } else if (keyword == "SCALARS") {
-                read_scalars(count);
-            } else if (keyword == "FIELD") {
-                read_field(count, true);
-            } else {
-                break;  // what else there may be (vectors, normals, data of points) is not needed
-            }
+    void begin_data(bool of_cells) {
+        in_data_ = true;
+        of_cells_ = of_cells;
+        tuples_ = in_.count(Kind::kInt64, of_cells ? "the number of cells" : "the number of points", in_.left());
+    }
+
+    /// Data of points and what of cells is no region is read over: of bytes nobody knows otherwise where they end.
+    void read_attribute(const std::string& keyword) {
+        struct Known {
+            std::string_view keyword;
+            std::uint64_t components;
+        };
+        static constexpr std::array<Known, 7> kKnown = {{{"VECTORS", 3},
+                                                         {"NORMALS", 3},
+                                                         {"TENSORS", 9},
+                                                         {"TENSORS6", 6},
+                                                         {"GLOBAL_IDS", 1},
+                                                         {"PEDIGREE_IDS", 1},
+                                                         {"EDGE_FLAGS", 1}}};
+        if (keyword == "SCALARS") return read_scalars();
+        if (keyword == "COLOR_SCALARS") return skip_colours(tuples_);
+        if (keyword == "LOOKUP_TABLE") return skip_lookup_table();
+        if (keyword == "TEXTURE_COORDINATES") {
+            static_cast<void>(in_.word());
+            const std::uint64_t components = in_.count(Kind::kInt64, "a number of components", kMostComponents);
+            return take_data("", read_kind(), tuples_, components);
         }
-        done_ = true;
+        for (const Known& known : kKnown) {
+            if (known.keyword != keyword) continue;
+            static_cast<void>(in_.word());
+            return take_data("", read_kind(), tuples_, known.components);
+        }
+        in_.fail(Cause::kMalformedInput, "expected data of points or cells, such as SCALARS or FIELD, " + found(keyword));
     }
 
-    void read_scalars(std::uint64_t count) {
+    void read_scalars() {
         const std::string name(in_.word());
         std::string_view rest = in_.line();
         const std::string_view type = next_word(rest);
         const std::optional<Kind> kind = kind_of(type);
         if (!kind) return in_.fail(Cause::kMalformedInput, "expected a type of numbers, " + found(type));
-        const std::uint64_t components = static_cast<std::uint64_t>(parse_integer(next_word(rest)).value_or(1));
+        const auto components = static_cast<std::uint64_t>(parse_integer(next_word(rest)).value_or(1));
         if (components < 1 || components > 4) return in_.fail(Cause::kMalformedInput, "expected 1 to 4 components");
         in_.expect("LOOKUP_TABLE");
         static_cast<void>(in_.word());
-        take_data(name, *kind, count, components);
+        take_data(name, *kind, tuples_, components);
     }
 
-    void read_field(std::uint64_t count, bool of_cells) {
+    /// As bytes they are of 0 to 255, as text of 0 to 1.
+    void skip_colours(std::uint64_t tuples) {
+        static_cast<void>(in_.word());
+        const std::uint64_t components = in_.count(Kind::kInt64, "a number of components", kMostComponents);
+        take_data("", Kind::kUint8, tuples, components);
+    }
+
+    void skip_lookup_table() {
+        static_cast<void>(in_.word());
+        const std::uint64_t colours = in_.count(Kind::kInt64, "a number of colours", in_.left());
+        take_data("", Kind::kUint8, colours, 4);
+    }
+
+    void read_field() {
         static_cast<void>(in_.word());  // its name
         const std::uint64_t arrays = in_.count(Kind::kInt64, "the number of arrays", in_.left());
         for (std::uint64_t i = 0; i < arrays && in_.ok(); ++i) {
@@ -223,22 +269,23 @@ private:
             const std::string_view type = in_.word();
             const std::optional<Kind> kind = kind_of(type);
             if (!kind) return in_.fail(Cause::kUnsupported, "an array of " + quoted(type) + " is not read");
-            take_data(of_cells && tuples == count ? name : "", *kind, tuples, components);
+            take_data(tuples == tuples_ ? name : "", *kind, tuples, components);
         }
     }
 
     void take_data(const std::string& name, Kind kind, std::uint64_t tuples, std::uint64_t components) {
-        std::vector<double> values;
-        const bool wanted = components == 1 && is_region_name(name);
+        PlacedNumbers<double> data;
+        const bool wanted = in_data_ && of_cells_ && components == 1 && is_region_name(name);
         with_numbers([&] {
+            data.place_of = places_ahead(kind);
             for (std::uint64_t i = 0; i < tuples && in_.ok(); ++i) {
                 for (std::uint64_t c = 0; c < components && in_.ok(); ++c) {
-                    const double value = in_.number(kind, "a value of a cell");
-                    if (wanted) values.push_back(value);
+                    const double value = in_.number(kind, of_cells_ ? "a value of a cell" : "a value of a point");
+                    if (wanted) data.values.push_back(value);
                 }
             }
         });
-        if (wanted && in_.ok()) in_.keep(cells_.set_regions(values, in_.place()));
+        if (wanted && in_.ok()) in_.keep(cells_.set_regions(data));
     }
 
     /// It ends with an empty line.
@@ -248,26 +295,17 @@ private:
         }
     }
 
-    /// Data of points may come before those of cells; of bytes nobody knows where they end without reading them.
-    bool read_data_until_cells() {
-        if (binary_) return false;
-        while (in_.left() > 0) {
-            NumberStream before = in_;
-            if (!trimmed(in_.line()).starts_with("CELL_DATA")) continue;
-            in_ = before;
-            return true;
-        }
-        return false;
-    }
-
-    static constexpr std::uint64_t kMost = 0xFFFFFFFE;
+    static constexpr std::uint64_t kMostComponents = 16;
 
     NumberStream in_;
     VtkCells cells_;
-    Place cell_place_ = at_line(1);
     bool binary_ = false;
     bool grid_ = false;
-    bool done_ = false;
+    bool has_types_ = false;
+    bool has_strips_ = false;
+    bool in_data_ = false;   // of points or cells, not of the dataset
+    bool of_cells_ = false;  // or of points
+    std::uint64_t tuples_ = 0;
 };
 
 }  // namespace

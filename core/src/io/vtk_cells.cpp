@@ -2,137 +2,203 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
-#include "io/text_lines.h"
+#include "io/region_value.h"
 
 namespace vsplit {
 namespace {
 
-/// Corners of a cell that is a face, 0 for one that is none, of VTK's types; -1: a solid; -2: unknown.
-int corners_of(std::int64_t type, std::size_t points) {
-    switch (type) {
-        case 1:  // vertex, poly-vertex, line, poly-line, quadratic edge
+constexpr std::int64_t kPixel = 8;
+
+enum class Kind { kFace, kStrip, kNoFace, kSolid, kUnknown };
+
+/// A type of VTK's cells.
+struct CellType {
+    Kind kind = Kind::kUnknown;
+    std::size_t corners = 0;  ///< the first points of a face; 0: all
+    std::size_t points = 0;   ///< that it has; 0: as many as corners or more
+};
+
+CellType type_of(std::int64_t number) {
+    switch (number) {
+        case 0:  // empty, vertex, poly-vertex, line, poly-line, quadratic edge
+        case 1:
         case 2:
         case 3:
         case 4:
         case 21:
-            return 0;
-        case 5:  // triangle, quadratic triangle, and with a node in the middle
-        case 22:
+            return {Kind::kNoFace, 0, 0};
+        case 5:
+            return {Kind::kFace, 3, 3};
+        case VtkCells::kStrip:
+            return {Kind::kStrip, 3, 0};
+        case VtkCells::kPolygon:
+            return {Kind::kFace, 0, 0};
+        case kPixel:
+        case 9:
+            return {Kind::kFace, 4, 4};
+        case 22:  // triangles of second order: without a node in the middle and with one
+            return {Kind::kFace, 3, 6};
         case 34:
-        case 69:
-            return 3;
-        case 9:  // quad, quadratic quads
-        case 23:
+            return {Kind::kFace, 3, 7};
+        case 69:  // of any order
+            return {Kind::kFace, 3, 0};
+        case 23:  // quadrilaterals of second order: the same, and with straight sides
+            return {Kind::kFace, 4, 8};
         case 28:
+            return {Kind::kFace, 4, 9};
         case 30:
+            return {Kind::kFace, 4, 6};
         case 70:
-            return 4;
-        case 7:  // polygon
-            return static_cast<int>(std::min<std::size_t>(points, 1U << 30U));
+            return {Kind::kFace, 4, 0};
         default:
-            return type >= 10 && type <= 33 ? -1 : -2;
+            return {number >= 10 && number <= 33 ? Kind::kSolid : Kind::kUnknown, 0, 0};
     }
 }
-
-constexpr std::int64_t kPolygon = 7;
 
 }  // namespace
 
-bool is_region_name(std::string_view name) {
-    constexpr std::array<std::string_view, 14> kNames = {
-        "region", "regions",       "region_id",     "regionid",    "group",       "group_id", "physicalids",
-        "label",  "gmsh:physical", "cellentityids", "material_id", "materialids", "face_id",  "pid"};
-    return std::any_of(kNames.begin(), kNames.end(), [&](std::string_view known) { return equals_ignoring_case(known, name); });
+Status VtkCells::add_point(const Vec3& point, Place place) {
+    return builder_.add_node(static_cast<std::int64_t>(points_seen_++), point, place);
 }
 
-Status VtkCells::add_point(const Vec3& point, Place place) { return builder_.add_node(points_seen_++, point, place); }
-
-Status VtkCells::check_count(std::uint64_t cells, Place place) {
-    place_ = place;
-    for (std::size_t at = 0; at < legacy_.size();) {
-        const std::int64_t count = legacy_[at];
-        if (count < 0 || static_cast<std::uint64_t>(count) > legacy_.size() - at - 1) {
-            return read_error(Cause::kMalformedInput, place,
+Status VtkCells::add_runs(const PlacedNumbers<std::int64_t>& runs, std::uint64_t cells, std::int64_t type) {
+    const std::vector<std::int64_t>& numbers = runs.values;
+    const std::size_t first = cells_.size();
+    arrays_.push_back({first, points_.size(), true, type, runs.place_of});
+    for (std::size_t at = 0; at < numbers.size();) {
+        const std::int64_t count = numbers[at];
+        if (count < 0 || static_cast<std::uint64_t>(count) > numbers.size() - at - 1) {
+            return read_error(Cause::kMalformedInput, runs.place_of(at),
                               "cell " + std::to_string(cells_.size()) + " is to have " + std::to_string(count) + " points, but " +
-                                  std::to_string(legacy_.size() - at - 1) + " numbers follow");
+                                  std::to_string(numbers.size() - at - 1) + " numbers follow");
         }
         const std::size_t begin = points_.size();
-        points_.insert(points_.end(), legacy_.begin() + static_cast<std::ptrdiff_t>(at) + 1,
-                       legacy_.begin() + static_cast<std::ptrdiff_t>(at) + 1 + count);
+        const auto from = numbers.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+        points_.insert(points_.end(), from, from + count);
         cells_.push_back({begin, points_.size()});
         at += static_cast<std::size_t>(count) + 1;
     }
-    legacy_.clear();
-    if (cells_.size() == cells) return Done{};
-    return read_error(Cause::kMalformedInput, place,
-                      std::to_string(cells) + " cells are announced, but the numbers make " + std::to_string(cells_.size()));
+    if (cells_.size() - first == cells) return Done{};
+    return read_error(
+        Cause::kMalformedInput, runs.place_of(numbers.empty() ? 0 : numbers.size() - 1),
+        std::to_string(cells) + " cells are announced, but the numbers make " + std::to_string(cells_.size() - first));
 }
 
-Status VtkCells::set_offsets(const std::vector<std::int64_t>& offsets, std::vector<std::int64_t> points, Place place) {
-    place_ = place;
-    points_ = std::move(points);
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-        const std::int64_t end = offsets[i];
-        if (i == 0 && end == 0) continue;
-        if (end < static_cast<std::int64_t>(begin) || end > static_cast<std::int64_t>(points_.size())) {
-            return read_error(Cause::kMalformedInput, place,
-                              "cell " + std::to_string(cells_.size()) + " ends at " + std::to_string(end) + " of " +
-                                  std::to_string(points_.size()) + " points and begins at " + std::to_string(begin));
+Status VtkCells::add_ends(std::span<const std::int64_t> ends, const PlaceOf& place_of_end,
+                          const PlacedNumbers<std::int64_t>& points, std::int64_t type) {
+    const std::size_t base = points_.size();
+    const auto count = static_cast<std::int64_t>(points.values.size());
+    arrays_.push_back({cells_.size(), base, false, type, points.place_of});
+    points_.insert(points_.end(), points.values.begin(), points.values.end());
+    std::int64_t begin = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const bool is_last = i + 1 == ends.size();
+        if (ends[i] < begin || ends[i] > count || (is_last && ends[i] != count)) {
+            return read_error(Cause::kMalformedInput, place_of_end(i),
+                              "cell " + std::to_string(cells_.size()) + " begins at " + std::to_string(begin) + " of " +
+                                  std::to_string(count) + " points and ends at " + std::to_string(ends[i]) +
+                                  (is_last ? "; the last one must end where the points do" : ""));
         }
-        cells_.push_back({begin, static_cast<std::size_t>(end)});
-        begin = static_cast<std::size_t>(end);
+        cells_.push_back({base + static_cast<std::size_t>(begin), base + static_cast<std::size_t>(ends[i])});
+        begin = ends[i];
     }
-    return Done{};
+    if (!ends.empty() || count == 0) return Done{};
+    return read_error(Cause::kMalformedInput, points.place_of(0),
+                      std::to_string(count) + " points of cells are given, but no cell ends");
 }
 
-Status VtkCells::set_regions(const std::vector<double>& values, Place place) {
-    constexpr double kLargest = 4294967294;
-    if (values.size() != before_ + cells_.size()) {
-        return read_error(
-            Cause::kMalformedInput, place,
-            std::to_string(values.size()) + " values are given for " + std::to_string(before_ + cells_.size()) + " cells");
-    }
+Status VtkCells::set_regions(const PlacedNumbers<double>& values) {
+    const std::size_t first = std::min<std::size_t>(before_, values.values.size());
     regions_.clear();
-    for (std::size_t i = before_; i < values.size(); ++i) {
-        if (!(values[i] >= 0 && values[i] <= kLargest && values[i] == std::trunc(values[i]))) {
-            return read_error(Cause::kMalformedInput, place,
-                              "expected a cell's region, an integer from 0 to 4294967294, found " + to_text(values[i]));
-        }
-        regions_.push_back(static_cast<std::uint32_t>(values[i]));
+    for (std::size_t i = first; i < values.values.size(); ++i) {
+        const Expected<std::uint32_t> region = region_of(values.values[i], at_line(1));
+        if (!region) return region_of(values.values[i], values.place_of(i)).error();
+        regions_.push_back(*region);
+    }
+    if (values.values.size() == before_ + cells_.size()) return Done{};
+    return read_error(
+        Cause::kMalformedInput, values.place_of(0),
+        std::to_string(values.values.size()) + " regions are given for " + std::to_string(before_ + cells_.size()) + " cells");
+}
+
+const VtkCells::Array& VtkCells::array_of(std::size_t cell) const {
+    auto after = std::find_if(arrays_.begin(), arrays_.end(), [cell](const Array& array) { return array.first_cell > cell; });
+    return *std::prev(after);
+}
+
+Place VtkCells::place_of(std::size_t cell, std::size_t corner) const {
+    const Array& array = array_of(cell);
+    const std::size_t counts = array.has_counts ? cell - array.first_cell + 1 : 0;
+    return array.place_of(cells_[cell].begin - array.first_point + counts + corner);
+}
+
+Place VtkCells::place_of_cell(std::size_t cell) const {
+    const Array& array = array_of(cell);
+    return array.place_of(cells_[cell].begin - array.first_point + (array.has_counts ? cell - array.first_cell : 0));
+}
+
+Status VtkCells::check_points(std::size_t cell) const {
+    const auto& [begin, end] = cells_[cell];
+    for (std::size_t i = begin; i < end; ++i) {
+        if (points_[i] >= 0 && static_cast<std::uint64_t>(points_[i]) < points_seen_) continue;
+        const std::string there = points_seen_ == 0 ? "there are none" : "there are 0 to " + std::to_string(points_seen_ - 1);
+        return read_error(Cause::kIndexOutOfRange, place_of(cell, i - begin),
+                          "cell " + std::to_string(cell) + " names point " + std::to_string(points_[i]) + "; " + there);
     }
     return Done{};
 }
 
-Status VtkCells::add_cell(std::size_t number) {
-    const auto& [begin, end] = cells_[number];
-    const std::int64_t type = types_.empty() ? kPolygon : types_[number];
-    const int corners = corners_of(type, end - begin);
-    if (corners == -2) {
-        return read_error(Cause::kUnsupported, place_,
-                          "cell " + std::to_string(number) + " is of type " + std::to_string(type) + ", which is not read");
+Status VtkCells::add_face(std::size_t cell, std::span<const std::int64_t> corners) {
+    const std::uint32_t region = regions_.empty() ? 0 : regions_[cell];
+    if (Status added = builder_.add_element(faces_++, corners, at_line(1), region)) return added;
+    return builder_.add_element(faces_, corners, place_of_cell(cell), region);  // for the place, which takes a search
+}
+
+/// Each point from the third on makes a triangle with the two before it, every second one turned.
+Status VtkCells::add_strip(std::size_t cell, std::span<const std::int64_t> points) {
+    for (std::size_t i = 2; i < points.size(); ++i) {
+        std::array<std::int64_t, 3> corners = {points[i - 2], points[i - 1], points[i]};
+        if (i % 2 != 0) std::swap(corners[0], corners[1]);
+        if (Status added = add_face(cell, corners); !added) return added;
     }
-    if (corners == -1) builder_.skip_solid();
-    if (corners == -1 || (corners == 0 && type != kPolygon)) return Done{};
-    if (corners < 3 || end - begin < static_cast<std::size_t>(corners)) {
-        return read_error(Cause::kMalformedInput, place_,
-                          "cell " + std::to_string(number) + " has " + std::to_string(end - begin) + " points; expected " +
-                              std::to_string(std::max(3, corners)));
+    return Done{};
+}
+
+Status VtkCells::add_cell(std::size_t cell) {
+    const auto& [begin, end] = cells_[cell];
+    const std::size_t count = end - begin;
+    const std::int64_t number = types_.values.empty() ? array_of(cell).type : types_.values[cell];
+    const CellType type = type_of(number);
+    if (type.kind == Kind::kUnknown) {
+        return read_error(Cause::kUnsupported, types_.place_of(cell),
+                          "cell " + std::to_string(cell) + " is of type " + std::to_string(number) + ", which is not read");
     }
-    return builder_.add_element(static_cast<std::int64_t>(number),
-                                std::span(points_).subspan(begin, static_cast<std::size_t>(corners)), place_,
-                                regions_.empty() ? 0 : regions_[number]);
+    if (type.kind == Kind::kSolid) builder_.skip_solid();
+    if (type.kind == Kind::kSolid || type.kind == Kind::kNoFace) return Done{};
+    const std::size_t least = std::max<std::size_t>(3, type.corners);
+    if (type.points != 0 ? count != type.points : count < least) {
+        return read_error(Cause::kMalformedInput, place_of_cell(cell),
+                          "cell " + std::to_string(cell) + " of type " + std::to_string(number) + " has " +
+                              std::to_string(count) + " points; expected " +
+                              (type.points != 0 ? std::to_string(type.points) : std::to_string(least) + " or more"));
+    }
+    if (Status there = check_points(cell); !there) return there;
+    const auto points = std::span<const std::int64_t>(points_).subspan(begin, type.corners == 0 ? count : type.corners);
+    if (type.kind == Kind::kStrip) return add_strip(cell, std::span<const std::int64_t>(points_).subspan(begin, count));
+    if (number != kPixel) return add_face(cell, points);
+    return add_face(cell, std::array{points[0], points[1], points[3], points[2]});  // a pixel's go row by row
 }
 
 Expected<TriangleMesh> VtkCells::take() {
-    if (!types_.empty() && types_.size() != cells_.size()) {
-        return read_error(Cause::kMalformedInput, place_,
-                          std::to_string(types_.size()) + " types are given for " + std::to_string(cells_.size()) + " cells");
+    if (!types_.values.empty() && types_.values.size() != cells_.size()) {
+        return read_error(
+            Cause::kMalformedInput, types_.place_of(0),
+            std::to_string(types_.values.size()) + " types are given for " + std::to_string(cells_.size()) + " cells");
     }
-    for (std::size_t number = 0; number < cells_.size(); ++number) {
-        if (Status added = add_cell(number); !added) return added.error();
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+        if (Status added = add_cell(cell); !added) return added.error();
     }
     return builder_.take();
 }

@@ -21,16 +21,34 @@ int digit_of(char c) {
     return c == '/' ? 63 : -1;
 }
 
+/// Letters of base64 text, without the space that may stand between them.
+class Letters {
+public:
+    explicit Letters(std::string_view text) : text_(text) {}
+
+    /// The next one; 0 at the end.
+    [[nodiscard]] char next() {
+        constexpr std::string_view kSpace = " \t\r\n";
+        while (at_ < text_.size() && kSpace.find(text_[at_]) != std::string_view::npos) ++at_;
+        return at_ < text_.size() ? text_[at_++] : '\0';
+    }
+    [[nodiscard]] std::string_view rest() const { return text_.substr(at_); }
+
+private:
+    std::string_view text_;
+    std::size_t at_ = 0;
+};
+
 /// The first `count` bytes of base64 text; empty where the text is too short or has another letter.
-std::optional<Bytes> decode_base64(std::string_view text, std::size_t count) {
-    Bytes bytes;
+std::optional<Bytes> decode_base64(Letters& letters, std::size_t count) {
     const std::size_t quartets = (count + 2) / 3;
-    if (text.size() / 4 < quartets) return {};
+    if (letters.rest().size() / 4 < quartets) return {};
+    Bytes bytes;
     bytes.reserve(3 * quartets);
     for (std::size_t q = 0; q < quartets; ++q) {
         std::uint32_t bits = 0;
         for (std::size_t i = 0; i < 4; ++i) {
-            const char c = text[4 * q + i];
+            const char c = letters.next();
             const int digit = c == '=' && i >= 2 ? 0 : digit_of(c);
             if (digit < 0) return {};
             bits = bits << 6U | static_cast<std::uint32_t>(digit);
@@ -47,17 +65,19 @@ public:
     Runs(std::string_view text, bool base64) : text_(text), base64_(base64) {}
 
     /// The first bytes without taking them.
-    [[nodiscard]] std::optional<Bytes> peek(std::size_t count) const {
-        if (base64_) return decode_base64(text_, count);
-        if (count > text_.size()) return {};
-        const auto* from = reinterpret_cast<const std::byte*>(text_.data());
-        return Bytes(from, from + count);
-    }
+    [[nodiscard]] std::optional<Bytes> peek(std::size_t count) const { return Runs(*this).take(count); }
 
     [[nodiscard]] std::optional<Bytes> take(std::size_t count) {
-        std::optional<Bytes> bytes = peek(count);
-        if (bytes) text_.remove_prefix(base64_ ? (count + 2) / 3 * 4 : count);
-        return bytes;
+        if (base64_) {
+            Letters letters(text_);
+            std::optional<Bytes> bytes = decode_base64(letters, count);
+            text_ = letters.rest();
+            return bytes;
+        }
+        if (count > text_.size()) return {};
+        const auto* from = reinterpret_cast<const std::byte*>(text_.data());
+        text_.remove_prefix(count);
+        return Bytes(from, from + count);
     }
 
 private:

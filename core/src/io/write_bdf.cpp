@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <string>
 
 #include "io/elements.h"
 #include "io/named_regions.h"
+#include "io/narrow_number.h"
 #include "io/text_writer.h"
 #include "io/writers.h"
 
@@ -26,19 +25,8 @@ std::string without_e(std::string text) {
     return text + exponent;
 }
 
-/// A number in at most 16 characters, as precise as that allows: to 11 digits at least.
-std::string nastran_real(double value) {
-    std::array<char, 32> digits;
-    for (int precision = 17; precision > 0; --precision) {
-        for (const auto form : {std::chars_format::general, std::chars_format::scientific}) {
-            const int behind = form == std::chars_format::general ? precision : precision - 1;
-            const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, form, behind);
-            std::string text = without_e({digits.data(), end.ptr});
-            if (text.size() <= kWide) return text;
-        }
-    }
-    return "0.";
-}
+/// To 11 digits at least.
+std::string nastran_real(double value) { return number_within(value, kWide, without_e); }
 
 std::string field(std::string text, std::size_t width) {
     text.resize(std::max(width, text.size()), ' ');

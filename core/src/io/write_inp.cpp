@@ -1,13 +1,24 @@
 #include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "io/elements.h"
 #include "io/named_regions.h"
+#include "io/narrow_number.h"
 #include "io/text_writer.h"
 #include "io/writers.h"
 
 namespace vsplit {
 namespace {
+
+/// CalculiX reads 20 characters of a number and takes no notice of the rest, be it an exponent. To 13 digits at least.
+std::string deck_real(double value) {
+    constexpr std::size_t kRead = 20;
+    return number_within(value, kRead, [](const std::string& text) { return text; });
+}
 
 /// Numbers in rows of eight, as input decks have them at most sixteen.
 void write_numbers(TextWriter& text, const std::vector<std::uint32_t>& numbers) {
@@ -17,13 +28,17 @@ void write_numbers(TextWriter& text, const std::vector<std::uint32_t>& numbers) 
     }
 }
 
-void write_set(TextWriter& text, const Elements& elements, const FaceSet& set) {
-    const TriangleMesh& mesh = elements.mesh();
+using FacesOfRegions = std::map<std::uint32_t, std::vector<std::uint32_t>>;
+
+void write_set(TextWriter& text, const Elements& elements, const FaceSet& set, const FacesOfRegions& faces_of) {
     std::vector<std::uint32_t> faces;
+    for (const std::uint32_t region : std::set(set.regions.begin(), set.regions.end())) {
+        const auto found = faces_of.find(region);
+        if (found != faces_of.end()) faces.insert(faces.end(), found->second.begin(), found->second.end());
+    }
+    std::sort(faces.begin(), faces.end());
     std::vector<std::uint32_t> nodes;
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        if (std::find(set.regions.begin(), set.regions.end(), mesh.regions[f]) == set.regions.end()) continue;
-        faces.push_back(f);
+    for (const std::uint32_t f : faces) {
         for (std::uint32_t i = 0; i < elements.order_nodes(); ++i) nodes.push_back(elements.node(f, i));
     }
     std::sort(nodes.begin(), nodes.end());
@@ -43,7 +58,7 @@ std::string write_inp(const Elements& elements) {
     text << "*HEADING\nvsplit\n*NODE, NSET=Nall\n";
     for (std::size_t v = 0; v < elements.node_count(); ++v) {
         const Vec3& p = elements.position(v);
-        text << v + 1 << ", " << p.x() << ", " << p.y() << ", " << p.z() << "\n";
+        text << v + 1 << ", " << deck_real(p.x()) << ", " << deck_real(p.y()) << ", " << deck_real(p.z()) << "\n";
     }
     text << "*ELEMENT, TYPE=S" << elements.order_nodes() << ", ELSET=" << kAllElements << "\n";
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
@@ -52,7 +67,9 @@ std::string write_inp(const Elements& elements) {
         text << "\n";
     }
     if (!mesh.regions.empty()) {
-        for (const FaceSet& set : sets_for_solvers(mesh)) write_set(text, elements, set);
+        FacesOfRegions faces_of;
+        for (NamedRegion& region : named_regions(mesh)) faces_of[region.region] = std::move(region.faces);
+        for (const FaceSet& set : sets_for_solvers(mesh)) write_set(text, elements, set, faces_of);
     }
     return text.take();
 }

@@ -2,14 +2,35 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
 
 #include "base/write_file.h"
 #include "io/elements.h"
+#include "io/named_regions.h"
 #include "io/writers.h"
 #include "vsplit/io/second_order.h"
 
 namespace vsplit {
 namespace {
+
+/// What fits an attribute of STL, a tag of MSH with as many of sets behind it, a property of Nastran with one more for none.
+std::uint32_t largest_region(MeshFormat format) {
+    constexpr std::uint32_t kLargestTag = 2'000'000'000, kLargestProperty = 99'999'998;
+    switch (format) {
+        case MeshFormat::kStlBinary:
+            return std::numeric_limits<std::uint16_t>::max();
+        case MeshFormat::kMsh:
+        case MeshFormat::kMshAscii:
+        case MeshFormat::kMsh2:
+        case MeshFormat::kMsh2Ascii:
+            return kLargestTag;
+        case MeshFormat::kBdf:
+            return kLargestProperty;
+        default:
+            return std::numeric_limits<std::uint32_t>::max();
+    }
+}
 
 /// Formats that name the kind of an element; VTU where no other is asked for.
 std::string write_elements(const Elements& elements, MeshFormat format) {
@@ -34,7 +55,9 @@ std::string write_elements(const Elements& elements, MeshFormat format) {
 
 }  // namespace
 
-std::string write_mesh(const TriangleMesh& mesh, MeshFormat format, std::optional<LengthUnit> unit) {
+std::string write_mesh(const TriangleMesh& any_regions, MeshFormat format, std::optional<LengthUnit> unit) {
+    const std::optional<TriangleMesh> small = with_regions_up_to(largest_region(format), any_regions);
+    const TriangleMesh& mesh = small ? *small : any_regions;
     switch (format) {
         case MeshFormat::kStlBinary:
             return write_stl_binary(mesh);
@@ -78,7 +101,8 @@ bool has_second_order(MeshFormat format) {
 }
 
 Expected<std::string> write_second_order(const TriangleMesh& mesh, const MidsideNodes& nodes, MeshFormat format) {
-    if (has_second_order(format)) return write_elements(Elements(mesh, &nodes), format);
+    const std::optional<TriangleMesh> small = with_regions_up_to(largest_region(format), mesh);
+    if (has_second_order(format)) return write_elements(Elements(small ? *small : mesh, &nodes), format);
     return Error{
         Cause::kUnsupported,
         std::string(format_name(format)) + " has no triangles of six nodes; accepted with order 2 are msh, inp, bdf, vtk and vtu",

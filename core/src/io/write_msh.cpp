@@ -22,6 +22,7 @@ public:
         : elements_(elements),
           mesh_(elements.mesh()),
           regions_(named_regions(mesh_)),
+          named_sets_(sets_with_faces(mesh_)),
           text_(text),
           out_(text ? NumberWriter::As::kText : NumberWriter::As::kLittleEndian) {}
 
@@ -63,7 +64,7 @@ private:
         for (const NamedRegion& region : regions_) {
             if (region.region != 0 && region.has_name) lines.push_back(name_line(region.region, region.name));
         }
-        for (const FaceSet& set : mesh_.sets) {
+        for (const FaceSet& set : named_sets_) {
             const auto is_name = [&](const NamedRegion& region) { return region.has_name && region.name == set.name; };
             if (!with_sets || std::any_of(regions_.begin(), regions_.end(), is_name)) continue;
             const std::uint64_t tag = std::uint64_t{regions_.back().region} + 1 + sets_.size();
@@ -188,6 +189,7 @@ private:
     const Elements& elements_;
     const TriangleMesh& mesh_;
     std::vector<NamedRegion> regions_;
+    std::vector<FaceSet> named_sets_;
     std::vector<std::pair<const FaceSet*, std::int32_t>> sets_;  // of several regions, and their tags
     bool text_;
     NumberWriter out_;

@@ -1,5 +1,3 @@
-#include <map>
-
 #include "io/named_regions.h"
 #include "io/text_writer.h"
 #include "io/writers.h"
@@ -18,11 +16,10 @@ std::string write_obj(const TriangleMesh& mesh) {
         for (const Triangle& face : mesh.faces) write_face(face);
         return text.take();
     }
-    std::map<std::uint32_t, std::string> names;
-    for (const NamedRegion& region : named_regions(mesh)) names[region.region] = region.region == 0 ? "" : region.name;
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        if (f == 0 || mesh.regions[f] != mesh.regions[f - 1]) text << "g " << names[mesh.regions[f]] << "\n";
-        write_face(mesh.faces[f]);
+    // A group once, with all its faces: readers take a name that comes again for another group.
+    for (const NamedRegion& region : named_regions(mesh)) {
+        text << "g " << (region.region == 0 && !region.has_name ? "" : region.name) << "\n";
+        for (const std::uint32_t f : region.faces) write_face(mesh.faces[f]);
     }
     return text.take();
 }

@@ -42,9 +42,9 @@ std::string write_stl_binary(const TriangleMesh& mesh) {
         for (const Vec3f& row : facet(mesh, face)) {
             for (int axis = 0; axis < 3; ++axis) to = store(to, row[axis]);
         }
-        // The attribute, which nobody agrees on, keeps a region that fits.
+        // The attribute, which nobody agrees on, keeps the region.
         const std::uint32_t region = mesh.regions.empty() ? 0 : mesh.regions[static_cast<std::size_t>(&face - mesh.faces.data())];
-        to = store(to, static_cast<std::uint16_t>(region <= 0xFFFF ? region : 0));
+        to = store(to, static_cast<std::uint16_t>(region));
     }
     return bytes;
 }

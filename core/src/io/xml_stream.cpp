@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/read_error.h"
+#include "io/text_lines.h"
 
 namespace vsplit {
 namespace {
@@ -105,9 +106,17 @@ void append_escaped(std::string& text, char c) {
 }  // namespace
 
 void XmlStream::go_to(std::size_t at) {
-    line_ += static_cast<std::size_t>(
-        std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_), text_.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+    position_.pass(std::string_view(text_).substr(at_, at - at_));
     at_ = at;
+}
+
+/// Goes to `at` over what is no markup.
+Status XmlStream::go_over_text(std::size_t at) {
+    const std::string_view text = trimmed(std::string_view(text_).substr(at_, at - at_));
+    if (nesting_.ended() && !text.empty())
+        return read_error(Cause::kMalformedInput, position_.place(), "text follows the end of the XML: " + quoted(text));
+    go_to(at);
+    return Done{};
 }
 
 /// More text; false at the end of the file.
@@ -129,10 +138,10 @@ Expected<bool> XmlStream::find_opening() {
     for (;;) {
         const std::size_t open = text_.find('<', at_);
         if (open != std::string::npos) {
-            go_to(open);
+            if (Status passed = go_over_text(open); !passed) return passed.error();
             return true;
         }
-        go_to(text_.size());
+        if (Status passed = go_over_text(text_.size()); !passed) return passed.error();
         Expected<bool> more = read_on();
         if (!more || !*more) return more;
     }
@@ -150,20 +159,20 @@ Expected<std::size_t> XmlStream::find_end() {
                 if (end != std::string_view::npos) end += passed.end.size();
             }
             if (rest.starts_with("<!D"))
-                return read_error(Cause::kMalformedInput, at_line(line_), "a document type is not allowed here");
+                return read_error(Cause::kMalformedInput, position_.place(), "a document type is not allowed here");
         } else {
             end = tag_end(rest, 1);
         }
         if (end != std::string_view::npos) return at_ + end;
         if (rest.size() > kLongestTag) {
             return read_error(
-                Cause::kMalformedInput, at_line(line_),
+                Cause::kMalformedInput, position_.place(),
                 "a tag or comment has over " + std::to_string(kLongestTag) + " bytes: " + quoted(rest.substr(0, 20)));
         }
         const Expected<bool> more = read_on();
         if (!more) return more.error();
         if (!*more) {
-            return read_error(Cause::kTruncatedInput, at_line(line_),
+            return read_error(Cause::kTruncatedInput, position_.place(),
                               "the file ends within " + quoted(std::string_view(text_).substr(at_, 20)));
         }
     }
@@ -173,14 +182,20 @@ Expected<std::optional<XmlTag>> XmlStream::next() {
     for (;;) {
         const Expected<bool> opened = find_opening();
         if (!opened) return opened.error();
-        if (!*opened) return std::optional<XmlTag>();
+        if (!*opened) {
+            if (Status ended = nesting_.end(position_.place()); !ended) return ended.error();
+            return std::optional<XmlTag>();
+        }
         const Expected<std::size_t> end = find_end();
         if (!end) return end.error();
         const std::string_view markup = std::string_view(text_).substr(at_, *end - at_);
-        const std::size_t line = line_;
+        const XmlPosition begin = position_;
         go_to(*end);
         if (markup.starts_with("<!") || markup.starts_with("<?")) continue;
-        return XmlTags(markup, line).next();
+        Expected<std::optional<XmlTag>> tag = XmlTags(markup, begin).next();
+        if (!tag || !*tag) return tag;
+        if (Status nests = nesting_.take(**tag); !nests) return nests.error();
+        return tag;
     }
 }
 

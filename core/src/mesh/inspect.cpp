@@ -264,7 +264,7 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     tbb::parallel_invoke([&] { vertices = survey_vertices(mesh, index, is_regular(mesh, index)); },
                          [&] { edges = survey_edges(mesh, index); }, [&] { duplicates = survey_duplicates(mesh, index); },
                          [&] { degenerate = survey_degenerate(mesh); }, [&] { report.quality = measure_quality(mesh, index); },
-                         [&] { report.box = bounding_box(mesh); });
+                         [&] { report.box = bounding_box(mesh); }, [&] { report.groups = list_groups(mesh); });
     report.boundary_touches = survey_touches(mesh, index, vertices);
     report.components = edges.components;
     report.boundary_edges = edges.boundary.count();
@@ -358,7 +358,7 @@ Status require_closed_manifold(const MeshReport& report) {
     if (const Finding* f = find_kind(report, Finding::Kind::kBoundaryEdge)) {
         return Error{Cause::kOpenMesh,
                      "the mesh is open: " + std::to_string(f->count) + " edges have one face only: " + places(*f, true) +
-                         " (vertex indices); a closed mesh is needed (--weld, in model units, may close small gaps)",
+                         " (vertex indices); a closed mesh is needed; a weld or a full repair when the mesh is read may close it",
                      ""};
     }
     return require_vertices(report);

@@ -37,29 +37,31 @@ double skew_of(const std::array<Vec3, 3>& corner) {
     return 90 - least;
 }
 
-/// A figure and its limits; a face is as it should be from `low` to `high`.
+enum class Limits : bool { kLeast, kMost };
+
+/// A figure and its limits: beyond `warn` a face is warned of, beyond `fail` it fails.
 struct Criterion {
     std::string_view name;
     double ElementQuality::*figure;
-    double fail_low;
-    double warn_low;
-    double warn_high;
-    double fail_high;
+    Limits limits;
+    double warn;
+    double fail;
 };
 
 using Q = ElementQuality;
 
-constexpr std::array kStretch02{Criterion{"stretch", &Q::stretch, kStretchFloor, 0.4, kInfinity, kInfinity}};
+constexpr std::array kStretch02{Criterion{"stretch", &Q::stretch, Limits::kLeast, 0.4, kStretchFloor}};
 
 // Verdict has acceptable ranges only, so no warnings.
-constexpr std::array kVerdict{
-    Criterion{"aspect_ratio", &Q::aspect_ratio, 0, 0, 1.3, 1.3}, Criterion{"radius_ratio", &Q::radius_ratio, 0, 0, 3, 3},
-    Criterion{"min_angle", &Q::min_angle, 30, 30, kInfinity, kInfinity}, Criterion{"max_angle", &Q::max_angle, 0, 0, 90, 90},
-    Criterion{"scaled_jacobian", &Q::scaled_jacobian, 0.5, 0.5, kInfinity, kInfinity}};
+constexpr std::array kVerdict{Criterion{"aspect_ratio", &Q::aspect_ratio, Limits::kMost, 1.3, 1.3},
+                              Criterion{"radius_ratio", &Q::radius_ratio, Limits::kMost, 3, 3},
+                              Criterion{"min_angle", &Q::min_angle, Limits::kLeast, 30, 30},
+                              Criterion{"max_angle", &Q::max_angle, Limits::kMost, 90, 90},
+                              Criterion{"scaled_jacobian", &Q::scaled_jacobian, Limits::kLeast, 0.5, 0.5}};
 
 constexpr std::array kOptistruct{
-    Criterion{"edge_ratio", &Q::edge_ratio, 0, 0, 50, 500}, Criterion{"skew", &Q::skew, 0, 0, 75, 85},
-    Criterion{"min_angle", &Q::min_angle, 3, 15, kInfinity, kInfinity}, Criterion{"max_angle", &Q::max_angle, 0, 0, 165, 177}};
+    Criterion{"edge_ratio", &Q::edge_ratio, Limits::kMost, 50, 500}, Criterion{"skew", &Q::skew, Limits::kMost, 75, 85},
+    Criterion{"min_angle", &Q::min_angle, Limits::kLeast, 15, 3}, Criterion{"max_angle", &Q::max_angle, Limits::kMost, 165, 177}};
 
 std::span<const Criterion> criteria_of(QualityProfile profile) {
     switch (profile) {
@@ -76,13 +78,13 @@ std::span<const Criterion> criteria_of(QualityProfile profile) {
 enum class Level : unsigned char { kPassed, kWarned, kFailed };
 
 Level level_of(const Criterion& criterion, double value) {
-    if (!(value >= criterion.fail_low && value <= criterion.fail_high)) return Level::kFailed;
-    return value >= criterion.warn_low && value <= criterion.warn_high ? Level::kPassed : Level::kWarned;
+    const auto within = [&](double limit) { return criterion.limits == Limits::kMost ? value <= limit : value >= limit; };
+    if (!within(criterion.fail)) return Level::kFailed;
+    return within(criterion.warn) ? Level::kPassed : Level::kWarned;
 }
 
-/// Whether `value` is worse than `other`: lower where there is a limit below, else higher.
 bool is_worse(const Criterion& criterion, double value, double other) {
-    return criterion.warn_high == kInfinity ? value < other : value > other;
+    return criterion.limits == Limits::kMost ? value > other : value < other;
 }
 
 struct BadFace {
@@ -155,7 +157,9 @@ ProfileReport check_profile(const TriangleMesh& mesh, QualityProfile profile, st
     ProfileReport report;
     report.profile = profile;
     for (const Criterion& criterion : criteria) {
-        report.criteria.push_back({std::string(criterion.name), criterion.warn_high == kInfinity ? kInfinity : 0, 0, 0, 0});
+        const bool upper = criterion.limits == Limits::kMost;
+        report.criteria.push_back(
+            {std::string(criterion.name), upper ? 0 : kInfinity, 0, 0, 0, upper, criterion.warn, criterion.fail});
     }
     std::vector<BadFace> bad;
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {

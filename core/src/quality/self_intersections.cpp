@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vsplit {
@@ -43,17 +44,40 @@ int side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return determinant > 0 ? 1 : -1;
 }
 
-bool passes_through(const Vec3& p, const Vec3& q, const Corners& t) {
-    if (side(t[0], t[1], t[2], p) * side(t[0], t[1], t[2], q) != -1) return false;
-    const int first = side(p, q, t[0], t[1]);
-    return first != 0 && side(p, q, t[1], t[2]) == first && side(p, q, t[2], t[0]) == first;
+using Sides = std::array<int, 3>;
+
+Sides sides_of(const Corners& corners, const Corners& plane) {
+    return {side(plane[0], plane[1], plane[2], corners[0]), side(plane[0], plane[1], plane[2], corners[1]),
+            side(plane[0], plane[1], plane[2], corners[2])};
 }
 
-bool an_edge_passes_through(const Corners& edges_of, const Corners& other) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (passes_through(edges_of[i], edges_of[(i + 1) % 3], other)) return true;
-    }
-    return false;
+bool are_on_both(const Sides& s) {
+    return *std::min_element(s.begin(), s.end()) < 0 && *std::max_element(s.begin(), s.end()) > 0;
+}
+
+/// The corner that has none of the others on its side, of corners that are on both.
+std::size_t alone(const Sides& s) {
+    std::size_t i = 0;
+    while (s[i] == 0 || s[(i + 1) % 3] == s[i] || s[(i + 2) % 3] == s[i]) ++i;
+    return i;
+}
+
+Corners beginning_at(const Corners& c, std::size_t first) { return {c[first], c[(first + 1) % 3], c[(first + 2) % 3]}; }
+
+/// Whether the insides cross: both triangles cut the other's plane, in parts of the planes' common line that have more than a
+/// point in common. Guigue, Devillers: Fast and Robust Triangle-Triangle Overlap Test Using Orientation Predicates (2003), with
+/// their "at most" made "less than".
+bool cross(const Corners& s, const Corners& t) {
+    const Sides of_t = sides_of(t, s);
+    if (!are_on_both(of_t)) return false;
+    const Sides of_s = sides_of(s, t);
+    if (!are_on_both(of_s)) return false;
+    constexpr int kAbove = -1;
+    Corners p = beginning_at(s, alone(of_s));
+    Corners q = beginning_at(t, alone(of_t));
+    if (of_s[alone(of_s)] != kAbove) std::swap(q[1], q[2]);
+    if (of_t[alone(of_t)] != kAbove) std::swap(p[1], p[2]);
+    return side(p[0], p[1], q[0], q[1]) > 0 && side(p[0], p[2], q[2], q[0]) > 0;
 }
 
 bool share_a_vertex(const Triangle& s, const Triangle& t) {
@@ -63,7 +87,7 @@ bool share_a_vertex(const Triangle& s, const Triangle& t) {
 bool intersect(const Face& s, const Face& t) {
     if ((s.min.array() > t.max.array()).any() || (t.min.array() > s.max.array()).any()) return false;
     if (share_a_vertex(s.vertices, t.vertices)) return false;
-    return an_edge_passes_through(s.corners, t.corners) || an_edge_passes_through(t.corners, s.corners);
+    return cross(s.corners, t.corners);
 }
 
 std::vector<Face> faces_along(const TriangleMesh& mesh, int axis) {

@@ -15,9 +15,9 @@ std::string_view what_changed(Finding::Kind kind) {
         case Finding::Kind::kDroppedFace:
             return "faces with two equal corners were dropped";
         case Finding::Kind::kFlattenedFace:
-            return "faces without area were flipped or contracted away";
+            return "faces without area were flipped, contracted or dropped";
         case Finding::Kind::kDroppedDuplicate:
-            return "faces on the same three vertices as another were dropped";
+            return "faces were dropped: copies of others on the same three vertices, and walls of no thickness";
         case Finding::Kind::kStitchedVertex:
             return "vertices of borders were joined to a border nearby";
         case Finding::Kind::kTurnedFace:

@@ -12,7 +12,35 @@ namespace {
 
 constexpr double kDegenerateStretch = 1e-9;  // as `inspect` counts them
 constexpr double kNeedle = 1e-6;             // shortest over longest edge: contracting moves nothing that far
-constexpr int kRounds = 10;                  // a flip may leave a face without area next to it
+constexpr int kRounds = 10;                  // a change may leave a face without area next to it
+
+bool is_degenerate(const Draft& draft, const Triangle& t) {
+    return stretch(draft.at(t[0]), draft.at(t[1]), draft.at(t[2])) < kDegenerateStretch;
+}
+
+/// Drops those of `needles` that hang; whether there were any.
+bool drop_hanging(const TriangleMesh& mesh, const std::vector<std::uint32_t>& needles, std::vector<bool>& dropped) {
+    std::vector<std::uint32_t> edge_of(3 * mesh.faces.size());
+    std::vector<std::uint32_t> faces_at;  // an edge
+    EdgeIndex(mesh).for_each_edge([&](const EdgeIndex::Entry* first, const EdgeIndex::Entry* last) {
+        for (const auto* entry = first; entry != last; ++entry)
+            edge_of[entry->half_edge] = static_cast<std::uint32_t>(faces_at.size());
+        faces_at.push_back(static_cast<std::uint32_t>(last - first));
+    });
+    bool any = false;
+    for (int round = 0; round < kRounds; ++round) {
+        bool changed = false;
+        for (const std::uint32_t f : needles) {
+            if (dropped[f]) continue;
+            const std::array<std::uint32_t, 3> edges = {edge_of[3 * f], edge_of[3 * f + 1], edge_of[3 * f + 2]};
+            if (std::count_if(edges.begin(), edges.end(), [&](std::uint32_t e) { return faces_at[e] % 2 != 0; }) < 2) continue;
+            for (const std::uint32_t e : edges) --faces_at[e];
+            dropped[f] = changed = any = true;
+        }
+        if (!changed) break;
+    }
+    return any;
+}
 
 /// One round over all faces without area. Two changes never share a vertex, so that tables made before hold.
 class Round {
@@ -31,7 +59,7 @@ public:
         bool changed = false;
         for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
             const Triangle t = mesh_.faces[f];
-            if (stretch(draft_.at(t[0]), draft_.at(t[1]), draft_.at(t[2])) >= kDegenerateStretch || is_touched(t)) continue;
+            if (!is_degenerate(draft_, t) || is_touched(t)) continue;
             const Vec3 place = draft_.centroid(f);
             if (!mend(f)) continue;
             changed = true;
@@ -138,6 +166,20 @@ private:
 };
 
 }  // namespace
+
+void drop_hanging_needles(Draft& draft) {
+    const TriangleMesh& mesh = draft.mesh;
+    std::vector<std::uint32_t> needles;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        if (is_degenerate(draft, mesh.faces[f])) needles.push_back(f);
+    }
+    std::vector<bool> dropped(mesh.faces.size(), false);
+    if (needles.empty() || needles.size() == mesh.faces.size() || !drop_hanging(mesh, needles, dropped)) return;
+    for (const std::uint32_t f : needles) {
+        if (dropped[f]) draft.changes.add(Finding::Kind::kFlattenedFace, draft.centroid(f), draft.parent[f]);
+    }
+    draft.erase_faces(dropped);
+}
 
 void remove_degenerate(Draft& draft) {
     for (int round = 0; round < kRounds && Round(draft).run(); ++round) {

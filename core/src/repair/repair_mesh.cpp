@@ -60,6 +60,7 @@ void repair(Draft& draft, const RepairOptions& options, const ExecutionContext& 
         drop_duplicates(draft);
     }
     if (context.cancelled()) return;
+    drop_hanging_needles(draft);
     make_manifold(draft);
     if (context.cancelled()) return;
     remove_degenerate(draft);

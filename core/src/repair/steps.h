@@ -8,7 +8,8 @@ namespace vsplit {
 /// The steps of `repair_mesh`, which says what each does. All are deterministic; those that take a
 /// context leave the draft somewhere on the way when it is cancelled.
 
-/// Of two faces that look opposite ways on the same three vertices neither is kept, unless they are a sheet. O(faces log faces).
+/// Of faces on the same three vertices that look opposite ways none is kept where that leaves closed what is around them, a wall;
+/// else the one that agrees with its neighbours. O(faces log faces).
 void drop_duplicates(Draft& draft);
 
 /// Joins borders no further apart than `tolerance` (length), the closest first. \pre tolerance > 0.
@@ -24,6 +25,10 @@ void face_outward(Draft& draft);
 /// Cuts edges and vertices apart until the mesh is a manifold; only copies of vertices and midpoints of edges are new. O(faces
 /// log faces).
 void split_non_manifold(Draft& draft);
+
+/// Drops faces of stretch under 1e-9 that only hang on others: two of their edges or more have an odd number of faces.
+/// O(faces log faces).
+void drop_hanging_needles(Draft& draft);
 
 /// Flips or contracts away faces of stretch under 1e-9 where neighbours allow. \pre manifold; may leave vertices of two fans
 /// where such a face lay at a border.

@@ -22,7 +22,7 @@ struct ReadOptions {
     std::optional<LengthUnit> unit{};  ///< of the file's lengths, where it does not say it
 };
 
-/// A mesh as it was in the file, welded. Polygons are cut into fans of triangles.
+/// A mesh as it was in the file, welded. Polygons are cut into triangles, without folding.
 struct ReadResult {
     TriangleMesh mesh;
     MeshFormat format{};

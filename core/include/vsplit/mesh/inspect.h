@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vsplit/base/expected.h"
+#include "vsplit/mesh/face_groups.h"
 #include "vsplit/mesh/finding.h"
 #include "vsplit/mesh/length_unit.h"
 #include "vsplit/mesh/triangle_mesh.h"
@@ -31,6 +32,7 @@ struct MeshReport {
     BoundingBox box;
     Quality quality;
     std::vector<Finding> findings;
+    FaceGroups groups{};
 };
 
 /// Looks at everything above; `weld` is what was dropped when the mesh was read, for the findings. O(faces log faces) time, 40

@@ -47,6 +47,9 @@ struct CriterionReport {
     std::uint32_t worst_face = 0;
     std::uint32_t warned = 0;  ///< faces beyond the warning limit and within that of failure
     std::uint32_t failed = 0;
+    bool upper = false;     ///< whether the limits are the most that is accepted; else the least
+    double warn_limit = 0;  ///< beyond it a face is warned of; that of failure where a profile has no warnings
+    double fail_limit = 0;  ///< beyond it a face fails
 };
 
 /// How a mesh does by a profile. A face fails where one of its figures does, else is warned of where one is.

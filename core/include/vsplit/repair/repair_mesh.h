@@ -15,7 +15,7 @@ namespace vsplit {
 /// How far a repair may go.
 enum class RepairMode {
     kNone,  ///< changes nothing; says what stands in the way
-    kSafe,  ///< the surface stays the same set of points: weld, drop, turn, cut apart
+    kSafe,  ///< the surface stays the same set of points but walls of no thickness: weld, drop, turn, cut apart
     kFull,  ///< closes it too: stitches cracks, drops specks, fills small holes
 };
 
@@ -47,14 +47,15 @@ struct RepairedMesh {
 /// In this order, each change counted:
 /// 1. MERGED_VERTEX: `weld`. DROPPED_FACE: faces with two equal corners.
 /// 2. DROPPED_DUPLICATE: faces on the same three vertices: one of those that look the same way is kept; of two that look opposite
-///    ways (a wall of no thickness) neither, unless no other face touches such faces: then it is a sheet, and one is kept.
+///    ways neither where the edges around them stay closed without (a wall of no thickness); else the one that agrees with its
+///    neighbours, and of a sheet that no other face touches one.
 /// 3. FULL: STITCHED_VERTEX: vertices on borders become one with near ones, or are put into near border edges, the closest first;
 ///    so patches that were tessellated apart, with T-junctions, become one ([Date05] refs. 20, 21).
 /// 4. TURNED_FACE: neighbours agree on a side; as few as possible of a piece are turned; FULL: a closed mesh encloses a volume.
 /// 5. SPLIT_EDGE, SPLIT_VERTEX: at an edge of more than two faces those with the body between them stay together; a vertex of
 ///    several fans becomes several, at the same place. Where both ends of such an edge stay whole, it gets a vertex in its
 ///    middle.
-/// 6. FLATTENED_FACE: faces without area are flipped or contracted away.
+/// 6. FLATTENED_FACE: faces without area are flipped or contracted away; those that hang on others by an edge, before 4.
 /// 7. FULL: DROPPED_SPECK, FILLED_HOLE: by the triangulation of least area; the only or outer border of a piece is no hole.
 ///
 /// \pre every index is below the number of vertices, coordinates are finite.

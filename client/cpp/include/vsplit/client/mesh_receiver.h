@@ -58,6 +58,11 @@ public:
     /// Number of records held: SetResolutionRequest.resume_from, to go on where a stream broke off.
     [[nodiscard]] std::uint32_t records_held() const { return first_record_ + static_cast<std::uint32_t>(held_.records.size()); }
 
+    /// Whether the regions that stand between a base mesh and its first record are here, or there are none: a record has come, or
+    /// whoever reads the stream said with `end_stream` that it is at its end. Else a stream that broke must begin anew.
+    [[nodiscard]] bool has_regions() const { return has_regions_; }
+    void end_stream() { has_regions_ = has_mesh(); }
+
     /// Whether what is held begins with a keyframe, a mesh of a finer level, so that `held().faces_min()` is the coarsest there
     /// is.
     [[nodiscard]] bool on_keyframe() const { return first_record_ != 0; }
@@ -80,7 +85,7 @@ public:
 
 private:
     [[nodiscard]] Status show_records(std::size_t records);
-    [[nodiscard]] Status check_place(std::uint32_t first) const;
+    [[nodiscard]] Status check_place(std::uint32_t first);
 
     std::uint32_t max_faces_;
     RecordCodec codec_;
@@ -88,6 +93,7 @@ private:
     MultiresMesh held_;
     std::optional<ProgressiveMesh> progressive_;
     std::uint32_t first_record_ = 0;  // the first of held_.records; not 0 after a keyframe
+    bool has_regions_ = false;
     /// What was held before a keyframe.
     struct Before {
         MultiresMesh held;

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "vsplit/mesh/triangle_mesh.h"
+
+namespace vsplit {
+
+/// Cuts a polygon in space into triangles of corner numbers: two fewer than corners, all running as the polygon does. Where the
+/// fan around the first corner does not fold, as with every convex polygon, it is that fan; else ears are cut off one by one,
+/// seen along the polygon's normal, without folding. Polygons that cross themselves have no such cut: what is left of them is a
+/// fan. \return empty for a polygon that would take too long: many thousands of corners, most of them in each other's way. \pre
+/// at least 3 corners. O(corners) for convex ones, at most 2,000 tests a corner for others.
+[[nodiscard]] std::vector<Triangle> cut_polygon(std::span<const Vec3> corners);
+
+}  // namespace vsplit
