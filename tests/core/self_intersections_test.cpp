@@ -91,7 +91,7 @@ TEST(SelfIntersectionsTest, AgreesWithExactArithmeticOnAGrid) {
 
 TEST(SelfIntersectionsTest, BoxesOnAGridThatOverlapAreFound) {
     for (const Vec3& offset : {Vec3(0.5, 0.5, 0.5), Vec3(0.5, 0.5, 0.25), Vec3(-0.5, 0.5, 0.5), Vec3(0.4, 0.45, 0.37)})
-        EXPECT_GE(count_self_intersections(test::joined(test::cube(), test::cube(), offset)), 8) << offset.transpose();
+        EXPECT_GE(count_self_intersections(test::joined(test::cube(), test::cube(), offset)), 6) << offset.transpose();
 }
 
 TEST(SelfIntersectionsTest, TouchingIsNone) {

@@ -107,6 +107,7 @@ TEST(VtkFilesTest, WhatIsWrongIsNamedWhereItStands) {
                  "line 10: cell 1 of type 5 has 4 points; expected 3");
     expect_error(kTwo + "CELL_DATA 2\nSCALARS region float\nLOOKUP_TABLE default\n1\n1.5\n", Cause::kMalformedInput,
                  "line 17: expected a region, an integer from 0 to 4294967294, found 1.5");
+    expect_error(kGrid + "CELLS 2 8\n3 0 1 2\n3 1 3 2\nCELL_TYPES 0\n", Cause::kMalformedInput, "0 types are given for 2 cells");
     expect_error(kGrid + "CELLS 2 8\n3 0 1 2\n3 1 3 2\n", Cause::kTruncatedInput, "the file ends before CELL_TYPES");
 }
 
@@ -139,6 +140,9 @@ TEST(VtkFilesTest, VtuCountsAndIndicesAreChecked) {
     expect_error(vtu(kCounts, kFour, "0 1 2 1 3 2 0 1 3", "3 6"), Cause::kMalformedInput,
                  "line 7: cell 1 begins at 3 of 9 points and ends at 6; the last one must end where the points do");
     expect_error(vtu(kCounts, "0 0 0 1 0 0\n0 1 0 1 inf 0", "0 1 2 1 3 2", "3 6"), Cause::kInvalidCoordinate, "line 4");
+    std::string untyped = good;
+    untyped.replace(untyped.find("\"types\">5 5"), 11, "\"types\">");
+    expect_error(untyped, Cause::kMalformedInput, "line 9: 0 types are given for 2 cells");
     std::string flat = good;
     flat.replace(flat.find("NumberOfComponents=\"3\""), 22, "NumberOfComponents=\"2\"");
     expect_error(flat, Cause::kMalformedInput, "line 3: expected points of 3 components, found 2");

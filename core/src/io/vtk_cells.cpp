@@ -169,10 +169,10 @@ Status VtkCells::add_strip(std::size_t cell, std::span<const std::int64_t> point
 Status VtkCells::add_cell(std::size_t cell) {
     const auto& [begin, end] = cells_[cell];
     const std::size_t count = end - begin;
-    const std::int64_t number = types_.values.empty() ? array_of(cell).type : types_.values[cell];
+    const std::int64_t number = types_ ? types_->values[cell] : array_of(cell).type;
     const CellType type = type_of(number);
     if (type.kind == Kind::kUnknown) {
-        return read_error(Cause::kUnsupported, types_.place_of(cell),
+        return read_error(Cause::kUnsupported, types_->place_of(cell),
                           "cell " + std::to_string(cell) + " is of type " + std::to_string(number) + ", which is not read");
     }
     if (type.kind == Kind::kSolid) builder_.skip_solid();
@@ -192,10 +192,10 @@ Status VtkCells::add_cell(std::size_t cell) {
 }
 
 Expected<TriangleMesh> VtkCells::take() {
-    if (!types_.values.empty() && types_.values.size() != cells_.size()) {
+    if (types_ && types_->values.size() != cells_.size()) {
         return read_error(
-            Cause::kMalformedInput, types_.place_of(0),
-            std::to_string(types_.values.size()) + " types are given for " + std::to_string(cells_.size()) + " cells");
+            Cause::kMalformedInput, types_->place_of(0),
+            std::to_string(types_->values.size()) + " types are given for " + std::to_string(cells_.size()) + " cells");
     }
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
         if (Status added = add_cell(cell); !added) return added.error();

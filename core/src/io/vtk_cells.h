@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -81,7 +82,7 @@ private:
     std::vector<Array> arrays_;
     std::vector<std::int64_t> points_;
     std::vector<Cell> cells_;
-    PlacedNumbers<std::int64_t> types_;
+    std::optional<PlacedNumbers<std::int64_t>> types_;
     std::vector<std::uint32_t> regions_;
     std::uint64_t before_ = 0;
     std::int64_t faces_ = 0;
