@@ -67,8 +67,9 @@ protected:
 
     void collapse(HalfEdge h) {
         const EdgeStar star = mesh_.star(h);
-        log_.record(mesh_, star);
-        mesh_.collapse(star, Vec3(2, 0, 0));
+        const Vec3 position(2, 0, 0);
+        log_.record(mesh_, star, position);
+        mesh_.collapse(star, position);
         kept_ = mesh_.origin(star.ie);
     }
     void move(std::uint32_t v, const Vec3& to) {
