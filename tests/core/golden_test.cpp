@@ -87,11 +87,12 @@ std::string write_file(const MultiresMesh& mrr, const EncodingChoice& choice) {
     return encode_mrr(*in_encoding(stored, choice));
 }
 
-/// "closed" and "open" are what files of version 1 hold, so that all versions hold the same. Many points of "improved" are the mean of
-/// their ring.
+/// "closed" and "open" are what files of version 1 hold, so that all versions hold the same. Many points of "improved" are the
+/// mean of their ring.
 std::vector<std::pair<std::string, MultiresMesh>> all_representations() {
     std::vector<std::pair<std::string, MultiresMesh>> all;
-    for (const std::string name : {"closed", "open"}) all.emplace_back(name, load_mrr(data_file("golden/file_1_" + name + ".vsplit"))->mrr);
+    for (const std::string name : {"closed", "open"})
+        all.emplace_back(name, load_mrr(data_file("golden/file_1_" + name + ".vsplit"))->mrr);
     ImproveOptions options;
     options.mode = Mode::kStrict;
     options.subdivision_size = 0.2;

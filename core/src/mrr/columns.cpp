@@ -6,8 +6,8 @@
 namespace vsplit {
 namespace {
 
-// There is little to find in most columns but how often each symbol comes: repetitions there are by chance and cost more than they
-// save. Columns of regular parts do repeat themselves. So both is tried; higher levels gain little for their time.
+// There is little to find in most columns but how often each symbol comes: repetitions there are by chance and cost more than
+// they save. Columns of regular parts do repeat themselves. So both is tried; higher levels gain little for their time.
 struct Search {
     int least_match, hash_log;  // 0: as the level has it
 };

@@ -6,6 +6,7 @@
 
 #include "mrr/block_checks.h"
 #include "mrr/block_coder.h"
+#include "mrr/grid_codes.h"
 
 namespace vsplit {
 namespace {
@@ -121,7 +122,8 @@ Status RecordCodec::Impl::decode_compact(const RecordBlock& block, ProgressiveMe
         return corrupt_block(block, "it is not of " + std::to_string(grid.bits()) + " bits a coordinate, as the base mesh was");
     const auto layout = static_cast<BlockLayout>(header >> kLayoutBit);
     if (layout > kNewestLayout) {
-        return corrupt_block(block, "its layout is " + std::to_string(header >> kLayoutBit) + "; this program reads layouts up to " +
+        return corrupt_block(block, "its layout is " + std::to_string(header >> kLayoutBit) +
+                                        "; this program reads layouts up to " +
                                         std::to_string(static_cast<unsigned>(kNewestLayout)));
     }
     if (Status unpacked = reader.unpack(payload.subspan(kHeaderBytes), block.count * kMostUnpackedBytes); !unpacked)

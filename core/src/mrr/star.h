@@ -16,14 +16,15 @@ namespace vsplit {
 
 using Offset = std::array<double, 3>;
 
-/// Where a ring begins. Both depend on the mesh alone, not on how it was reached; of several places it is the one at the neighbour
-/// with the lowest number.
+/// Where a ring begins. Both depend on the mesh alone, not on how it was reached; of several places it is the one at the
+/// neighbour with the lowest number.
 enum class RingBegin : std::uint8_t {
     kNearest,   ///< at the nearest neighbour
     kNarrowest  ///< at the nearer of two across from each other, where the ring is narrowest: there most splits cut
 };
 
-/// A vertex and its ring, counter-clockwise. Sums over it are made in this order, so they are the same bits wherever they are made.
+/// A vertex and its ring, counter-clockwise. Sums over it are made in this order, so they are the same bits wherever they are
+/// made.
 class Star {
 public:
     void gather(const ProgressiveMesh& mesh, std::uint32_t vertex, RingBegin begin) {
@@ -77,8 +78,8 @@ public:
 private:
     static constexpr std::uint32_t kCopied = 8;  // at once: as many as most rings have, so that no loop is needed for them
 
-    /// Nobody can foresee which it is, so it is selected, not branched to. Doubles that are not negative are in the order of their
-    /// bits.
+    /// Nobody can foresee which it is, so it is selected, not branched to. Doubles that are not negative are in the order of
+    /// their bits.
     template <RingBegin kBegin>
     [[nodiscard]] std::uint32_t find_begin() {
         std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
