@@ -233,12 +233,15 @@ TEST(GoldenTest, FilesOfAllVersionsHoldTheSame) {
         const auto first = load_mrr(data_file("golden/file_1_" + name + ".vsplit"));
         ASSERT_TRUE(first) << name;
         for (const std::string version : {"file_2_", "file_3_"}) {
-            const auto later = load_mrr(data_file("golden/" + version + "float64_" + name + ".vsplit"));
+            const auto load = [&](const char* encoding) {
+                return load_mrr(data_file((std::ostringstream() << "golden/" << version << encoding << name << ".vsplit").str()));
+            };
+            const auto later = load("float64_");
             ASSERT_TRUE(later) << version << name;
             EXPECT_EQ(first->mrr, later->mrr) << version << name;
             EXPECT_EQ(first->description, later->description);
-            for (const std::string encoding : {"float32_", "quantised14_"}) {
-                const auto rounded = load_mrr(data_file("golden/" + version + encoding + name + ".vsplit"));
+            for (const char* const encoding : {"float32_", "quantised14_"}) {
+                const auto rounded = load(encoding);
                 ASSERT_TRUE(rounded) << version << encoding << name;
                 EXPECT_EQ(on_grid(first->mrr, rounded->grid), rounded->mrr) << version << encoding << name;
             }

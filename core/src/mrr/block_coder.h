@@ -20,7 +20,7 @@ namespace vsplit {
 /// How the records of a block are coded; its first byte says so.
 enum class BlockLayout : std::uint8_t {
     kFirst,
-    kMeans  ///< points that are the mean of their ring say only that; rings begin where a split most often cuts
+    kMeans  ///< points that are the mean of their ring say only that; two columns of places
 };
 inline constexpr BlockLayout kNewestLayout = BlockLayout::kMeans;
 
@@ -68,7 +68,7 @@ public:
             if (vertex >= mesh_.mesh().vertex_count()) [[unlikely]]
                 return bad("a vertex that is not there");
         }
-        star_.gather(mesh_, vertex, ring_begin());
+        star_.gather(mesh_, vertex);
         if (!code_fan(split)) [[unlikely]]
             return bad("a fan that is none of the vertex");
         points_.code(split);
@@ -98,7 +98,7 @@ public:
         move.vertex = last_moved_ + 1 + static_cast<std::uint32_t>(from_zigzag(step));
         if (move.vertex >= mesh_.mesh().vertex_count()) return bad("a vertex that is not there");
         last_moved_ = move.vertex;
-        star_.gather(mesh_, move.vertex, ring_begin());
+        star_.gather(mesh_, move.vertex);
         points_.code(move);
         if (!points_.in_range()) return bad("a position that is not on the grid");
         return taken(mesh_.refine(move));
@@ -118,10 +118,6 @@ private:
             return true;
         error_ = status.error();
         return false;
-    }
-
-    [[nodiscard]] RingBegin ring_begin() const {
-        return layout_ == BlockLayout::kMeans ? RingBegin::kNarrowest : RingBegin::kNearest;
     }
 
     /// With a bit more in a number, its high part means something else.

@@ -16,25 +16,21 @@ namespace vsplit {
 
 using Offset = std::array<double, 3>;
 
-/// Where a ring begins. Both depend on the mesh alone, not on how it was reached; of several places it is the one at the
-/// neighbour with the lowest number.
-enum class RingBegin : std::uint8_t {
-    kNearest,   ///< at the nearest neighbour
-    kNarrowest  ///< at the nearer of two across from each other, where the ring is narrowest: there most splits cut
-};
-
-/// A vertex and its ring, counter-clockwise. Sums over it are made in this order, so they are the same bits wherever they are
-/// made.
+/// A vertex and its ring, counter-clockwise from the nearest neighbour on (of several the one with the lowest number): an order
+/// that depends on the mesh alone, not on how it was reached. Sums over it are made in this order, so they are the same bits
+/// wherever they are made.
 class Star {
 public:
-    void gather(const ProgressiveMesh& mesh, std::uint32_t vertex, RingBegin begin) {
+    void gather(const ProgressiveMesh& mesh, std::uint32_t vertex) {
         const Vec3* const positions = mesh.mesh().positions.data();
         const std::uint32_t* const vertex_at = corners_of(mesh.mesh().faces);
         const HalfEdge* const twins = mesh.twins().data();
         for (int axis = 0; axis < 3; ++axis) centre[axis] = positions[vertex][axis];
         const HalfEdge start = mesh.corner_of(vertex);
         HalfEdge corner = start;
-        std::uint32_t n = 0;
+        std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+        std::uint32_t nearest = kNone;  // vertex
+        std::uint32_t n = 0, first = 0;
         do {
             if (2 * n + 2 + kCopied > corners_.size()) [[unlikely]]
                 grow();
@@ -43,12 +39,18 @@ public:
             vertices_[n] = neighbour;
             Offset& d = offsets_[n];
             for (int axis = 0; axis < 3; ++axis) d[axis] = positions[neighbour][axis] - centre[axis];
-            squares_[n] = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+            // Doubles that are not negative are in the order of their bits. Nobody can foresee which is the nearest, so this is
+            // selected, not branched to.
+            const auto square = std::bit_cast<std::uint64_t>(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            const bool nearer = (square < least) | ((square == least) & (neighbour < nearest));
+            first = nearer ? n : first;
+            nearest = nearer ? neighbour : nearest;
+            least = nearer ? square : least;
             ++n;
             corner = twins[prev(corner)];
         } while (corner != start);
         valence_ = n;
-        first_ = begin == RingBegin::kNarrowest ? find_begin<RingBegin::kNarrowest>() : find_begin<RingBegin::kNearest>();
+        first_ = first;
         for (std::uint32_t from = 0; from < n; from += kCopied) {
             copy(offsets_, from);
             copy(corners_, from);
@@ -78,28 +80,6 @@ public:
 private:
     static constexpr std::uint32_t kCopied = 8;  // at once: as many as most rings have, so that no loop is needed for them
 
-    /// Nobody can foresee which it is, so it is selected, not branched to. Doubles that are not negative are in the order of
-    /// their bits.
-    template <RingBegin kBegin>
-    [[nodiscard]] std::uint32_t find_begin() {
-        std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-        std::uint32_t lowest = kNone, first = 0;
-        const auto look = [&](std::uint32_t n, std::uint32_t across) {
-            const double score = kBegin == RingBegin::kNearest ? squares_[n] : squares_[n] + 0.9375 * squares_[across];
-            const auto bits = std::bit_cast<std::uint64_t>(score);
-            const bool before = (bits < least) | ((bits == least) & (vertices_[n] < lowest));
-            first = before ? n : first;
-            lowest = before ? vertices_[n] : lowest;
-            least = before ? bits : least;
-        };
-        const std::uint32_t half = valence_ / 2;
-        std::fill_n(squares_.data() + valence_, kCopied, std::numeric_limits<double>::infinity());
-        for (std::uint32_t from = 0; from < valence_; from += kCopied) {  // a loop that most often ends at once
-            for (std::uint32_t n = from; n < from + kCopied; ++n) look(n, n + half < valence_ ? n + half : n + half - valence_);
-        }
-        return first;
-    }
-
     /// The second time around, as far as kCopied elements from `from` on go; beyond the ring there is room.
     template <class Element>
     void copy(std::vector<Element>& elements, std::uint32_t from) const {
@@ -112,14 +92,12 @@ private:
         offsets_.resize(size);
         corners_.resize(size);
         vertices_.resize(size);
-        squares_.resize(size);
     }
 
-    // The ring twice, one after the other, so that it can begin anywhere; then room for kCopied. Of squares once.
+    // The ring twice, one after the other, so that it can begin anywhere; then room for kCopied.
     std::vector<Offset> offsets_;
     std::vector<HalfEdge> corners_;
     std::vector<std::uint32_t> vertices_;
-    std::vector<double> squares_;  // of the offsets' lengths
     std::uint32_t valence_ = 0;
     std::uint32_t first_ = 0;
 };

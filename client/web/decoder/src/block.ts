@@ -33,7 +33,7 @@ export class RecordDecoder {
   private lastMoved = -1;
   private columns!: ColumnReader;
   private inRange = true;
-  /** Layout 1: points that are the mean of their ring say only that, and rings begin where they are narrowest. */
+  /** Layout 1: points that are the mean of their ring say only that, and places have two columns. */
   private knowsMeans = false;
   private readonly point = new Float64Array(3);
   private readonly centre = new Float64Array(3);
@@ -110,7 +110,7 @@ export class RecordDecoder {
   private split(mesh: ProgressiveMesh): void {
     const { star, columns } = this;
     const vertex = this.place(mesh);
-    star.gather(mesh, vertex, this.knowsMeans);
+    star.gather(mesh, vertex);
     const valence = star.valence;
     let turn: number;
     let more: number;
@@ -216,7 +216,7 @@ export class RecordDecoder {
     const vertex = (this.lastMoved + 1 + fromZigzag(step)) >>> 0;
     if (vertex >= mesh.vertexCount) throw new CorruptError("a vertex that is not there");
     this.lastMoved = vertex;
-    this.star.gather(mesh, vertex, this.knowsMeans);
+    this.star.gather(mesh, vertex);
     this.star.lie();
     this.guess.fill(0);
     this.codePoint(0, Column.MoveAlong, Column.MoveAcross);

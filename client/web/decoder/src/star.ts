@@ -1,9 +1,8 @@
 import { next, prev, type ProgressiveMesh } from "./mesh.js";
 
 /**
- * A vertex and its ring, counter-clockwise. It begins at the nearest neighbour, or where it is narrowest: at the nearer of two
- * neighbours across from each other; of several at the one with the lowest number. Sums over it are made in the order of the ring,
- * so that they are the same bits as in C++.
+ * A vertex and its ring, counter-clockwise from the nearest neighbour on (of several the one with the lowest number). Sums over it
+ * are made in the order of the ring, so that they are the same bits as in C++.
  */
 export class Star {
   valence = 0;
@@ -15,7 +14,6 @@ export class Star {
   corner = new Int32Array(64);
   vertex = new Int32Array(64);
   private offset = new Float64Array(3 * 64);
-  private square = new Float64Array(64);
   /** Offsets of the neighbours as `lie` lays them out: from the first one on, once around and back to it. */
   x = new Float64Array(65);
   y = new Float64Array(65);
@@ -28,12 +26,15 @@ export class Star {
   readonly reach = new Float64Array(3);
   thickness = 0;
 
-  gather(mesh: ProgressiveMesh, vertex: number, atNarrowest: boolean): void {
+  gather(mesh: ProgressiveMesh, vertex: number): void {
     const { positions, corners, twins } = mesh;
-    let ring = this.corner, neighbours = this.vertex, offset = this.offset, squares = this.square;
+    let ring = this.corner, neighbours = this.vertex, offset = this.offset;
     const start = mesh.cornerOf[vertex]! | 0;
     const cx = positions[3 * vertex]!, cy = positions[3 * vertex + 1]!, cz = positions[3 * vertex + 2]!;
     let count = 0;
+    let first = 0;
+    let nearest = -1;
+    let least = Infinity;
     let corner = start;
     do {
       if (count === ring.length) {
@@ -41,7 +42,6 @@ export class Star {
         ring = this.corner;
         neighbours = this.vertex;
         offset = this.offset;
-        squares = this.square;
       }
       const neighbour = corners[next(corner)]! | 0;
       const at = (3 * neighbour) | 0, to = (3 * count) | 0;
@@ -51,44 +51,31 @@ export class Star {
       offset[to + 2] = dz;
       ring[count] = corner;
       neighbours[count] = neighbour;
-      squares[count] = dx * dx + dy * dy + dz * dz;
+      const square = dx * dx + dy * dy + dz * dz;
+      if (square < least || (square === least && neighbour < nearest)) {
+        first = count;
+        nearest = neighbour;
+        least = square;
+      }
       count = (count + 1) | 0;
       corner = twins[prev(corner)]! | 0;
     } while (corner !== start);
     this.valence = count;
-    this.first = this.findBegin(atNarrowest ? 0.9375 : 0);
+    this.first = first;
     this.cx = cx;
     this.cy = cy;
     this.cz = cz;
   }
 
-  /** `weight` of the neighbour across. */
-  private findBegin(weight: number): number {
-    const { valence, square, vertex } = this;
-    const half = valence >> 1;
-    let first = 0, lowest = -1, least = Infinity;
-    for (let n = 0; n < valence; ++n) {
-      const score = square[n]! + weight * square[n + half < valence ? n + half : n + half - valence]!;
-      if (score < least || (score === least && vertex[n]! < lowest)) {
-        first = n;
-        lowest = vertex[n]!;
-        least = score;
-      }
-    }
-    return first;
-  }
-
   private grow(): void {
     const size = 2 * this.corner.length;
-    const corner = new Int32Array(size), vertex = new Int32Array(size), offset = new Float64Array(3 * size), square = new Float64Array(size);
+    const corner = new Int32Array(size), vertex = new Int32Array(size), offset = new Float64Array(3 * size);
     corner.set(this.corner);
     vertex.set(this.vertex);
     offset.set(this.offset);
-    square.set(this.square);
     this.corner = corner;
     this.vertex = vertex;
     this.offset = offset;
-    this.square = square;
     this.x = new Float64Array(size + 1);
     this.y = new Float64Array(size + 1);
     this.z = new Float64Array(size + 1);
