@@ -67,8 +67,9 @@ protected:
 
     void collapse(HalfEdge h) {
         const EdgeStar star = mesh_.star(h);
-        log_.record(mesh_, star);
-        mesh_.collapse(star, Vec3(2, 0, 0));
+        const Vec3 position(2, 0, 0);
+        log_.record(mesh_, star, position);
+        mesh_.collapse(star, position);
         kept_ = mesh_.origin(star.ie);
     }
     void move(std::uint32_t v, const Vec3& to) {
@@ -85,6 +86,25 @@ protected:
     CollapseLog log_;
     std::uint32_t kept_ = 0;
 };
+
+TEST(CollapseLogTest, OfTwoVerticesWithAsManyEdgesTheFanOfTheNewOneBeginsAtTheNearerEnd) {
+    for (const bool at_b : {true, false}) {
+        HalfEdgeMesh mesh(icosphere(2));
+        HalfEdge h = 0;
+        while (mesh.valence(mesh.origin(h)) != mesh.valence(mesh.target(h))) ++h;
+        const EdgeStar star = mesh.star(h);
+        const std::uint32_t near = mesh.origin(at_b ? star.bj : star.ei);
+        const Vec3 position = 0.5 * mesh.position(near) + 0.5 * mesh.position(mesh.origin(h));
+        CollapseLog log;
+        log.record(mesh, star, position);
+        mesh.collapse(star, position);
+        const Vec3 end = mesh.position(near);
+        const MultiresMesh mrr = log.build(mesh);
+        ASSERT_EQ(mrr.levels(), 1U);
+        const std::uint32_t anchor = mrr.records.splits()[0].anchor;
+        EXPECT_EQ(mrr.base.positions[mrr.base.faces[anchor / 3][(anchor + 1) % 3]], end) << at_b;
+    }
+}
 
 TEST_F(CollapseLogStepTest, MovesOfAStepAreOne) {
     const std::uint32_t v = far_away();

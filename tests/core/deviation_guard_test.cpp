@@ -71,7 +71,7 @@ private:
             return;
         }
         ++collapses_;
-        p.log.record(p.mesh, star);
+        p.log.record(p.mesh, star, evaluation.position);
         p.state.quadrics[p.mesh.origin(star.ij)] += p.state.quadrics[p.mesh.origin(star.ji)];
         p.mesh.collapse(star, evaluation.position);
         for (std::size_t t = 0; t < fan.size(); ++t) {

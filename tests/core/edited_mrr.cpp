@@ -51,8 +51,9 @@ bool RandomEditor::collapse() {
         if (!may_collapse(star)) continue;
         const double share = random_.uniform(0, 1);
         const Vec3 i = mesh_.position(mesh_.origin(star.ij)), j = mesh_.position(mesh_.origin(star.ji));
-        log_.record(mesh_, star);
-        mesh_.collapse(star, i + share * (j - i));
+        const Vec3 position = i + share * (j - i);
+        log_.record(mesh_, star, position);
+        mesh_.collapse(star, position);
         return true;
     }
     return false;

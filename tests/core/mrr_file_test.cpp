@@ -44,7 +44,7 @@ RecordList documented_records() {
             VertexSplit{0, 1, {0, 0, 1}, {0, 0.5, 0.5}}};
 }
 
-/// Where things stand in a file of version 2 (docs/format.md).
+/// Where things stand in a file since version 2 (docs/format.md).
 constexpr std::size_t kHeaderCrcAt = 204, kHeaderBytes = 208, kIndexBytes = 40;
 
 /// Three splits, a flip and a move.
@@ -239,9 +239,9 @@ TEST(MrrFileTest, OtherFilesAreNoMrr) {
 
 TEST(MrrFileTest, NewerVersionIsUnsupportedWhateverFollows) {
     std::string bytes = encode_mrr(example());
-    put(bytes, 8, 3);  // the rest may look like anything, checksum included
+    put(bytes, 8, 4);  // the rest may look like anything, checksum included
     expect_error(bytes, Cause::kUnsupported,
-                 "byte 8: the file is of version 3 of the format; this program reads versions 1 to 2");
+                 "byte 8: the file is of version 4 of the format; this program reads versions 1 to 3");
     expect_error(bytes.substr(0, 12), Cause::kUnsupported, "byte 8");
     expect_error(with_field(bytes, 8, 0), Cause::kCorrupt, "byte 8");
 }
@@ -466,7 +466,7 @@ TEST(MrrFileTest, BrokenFilesSayWhatIsWrongAndWhere) {
     };
     std::size_t listed = 0;
     for (const auto& [name, cause, place] :
-         {BrokenFile{"mrr_of_version_3.vsplit", Cause::kUnsupported, "byte 8"},
+         {BrokenFile{"mrr_of_version_4.vsplit", Cause::kUnsupported, "byte 8"},
           BrokenFile{"mrr_cut_in_header.vsplit", Cause::kTruncatedInput, "byte 30"},
           BrokenFile{"mrr_cut_in_block.vsplit", Cause::kTruncatedInput, "byte 330: the file ends after 0 of 4 records"},
           BrokenFile{"mrr_changed_header.vsplit", Cause::kCorrupt, "byte 44"},

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/corners.h"
+#include "mesh/half_edges.h"
 #include "tests/core/edited_mrr.h"
 #include "tests/core/meshes.h"
 #include "vsplit/mrr/base_codec.h"
@@ -177,6 +179,67 @@ TEST(RecordCodecTest, CompactBlocksAreCompact) {
     const double exact = bytes_a_split(kChoices[0]), single = bytes_a_split(kChoices[1]), grid = bytes_a_split(kChoices[3]);
     EXPECT_LT(single, exact / 2);
     EXPECT_LT(grid, single * 0.7);
+}
+
+/// The same splits, but every third `kept` and every third `added` lies `off` the mean of its ring, the other one included.
+MultiresMesh with_means(const MultiresMesh& mrr, const Vec3& off) {
+    MultiresMesh result{mrr.base, {}, mrr.ghosts, mrr.ghost_faces, mrr.border_splits, {}, {}};
+    ProgressiveMesh mesh = *ProgressiveMesh::from_base(mrr.base, mrr.ghosts);
+    for_each_record(mrr.records.slice(0, mrr.records.size()), [&](auto record) {
+        if constexpr (std::is_same_v<decltype(record), VertexSplit>) {
+            const TriangleMesh& now = mesh.mesh();
+            Vec3 fan = record.kept, rest = record.added;
+            std::uint32_t valence = 0;
+            HalfEdge corner = record.anchor;
+            do {
+                const Vec3& neighbour = now.positions[now.faces[next(corner) / 3][next(corner) % 3]];
+                if (valence <= record.steps) fan += neighbour;
+                if (valence >= record.steps || valence == 0) rest += neighbour;
+                ++valence;
+                corner = mesh.twins()[prev(corner)];
+            } while (corner != record.anchor);
+            if (mesh.level() % 3 == 0) record.added = off + fan / (record.steps + 2.0);
+            if (mesh.level() % 3 == 1) record.kept = off + rest / (valence - record.steps + 2.0);
+        }
+        EXPECT_TRUE(mesh.refine(record));
+        result.records.push_back(record);
+    });
+    return result;
+}
+
+TEST(RecordCodecTest, PointsThatAreTheMeanOfTheirRingTakeFewerBytes) {
+    const MultiresMesh any = edited_mrr(bumpy_sphere(4, 0.02, 5), 1500, 3).mrr;
+    const MultiresMesh near = with_means(any, Vec3::Constant(0.01)), exact = with_means(any, Vec3::Zero());
+    for (const EncodingChoice& choice : {kChoices[1], kChoices[3], kChoices[4]}) {
+        std::size_t bytes[2] = {0, 0};
+        for (const bool is_exact : {false, true}) {
+            Ends ends(is_exact ? exact : near, choice);
+            ProgressiveMesh decoded = ends.base();
+            RecordList records;
+            while (ends.mesh.records() < any.records.size()) {
+                const RecordBlock block = ends.encode(any.records.size());
+                bytes[is_exact ? 1 : 0] += block.payload.size();
+                ASSERT_TRUE(ends.codec.decode(block, decoded, &records));
+            }
+            EXPECT_EQ(records, ends.rounded.records);
+            EXPECT_EQ(decoded.mesh(), ends.mesh.mesh());
+        }
+        EXPECT_LT(static_cast<double>(bytes[1]), 0.92 * static_cast<double>(bytes[0])) << choice.bits;
+    }
+}
+
+TEST(RecordCodecTest, ALayoutThatIsNotKnownIsRefused) {
+    for (const EncodingChoice& choice : {kChoices[1], kChoices[3]}) {
+        Ends ends(edited_mrr(bumpy_sphere(1, 0.02, 5), 20, 11).mrr, choice);
+        RecordBlock block = ends.encode(ends.mrr.records.size());
+        block.payload[0] = static_cast<char>(choice.bits | 2U << 5U);
+        block.crc32c = crc32c(std::as_bytes(std::span(block.payload)));
+        ProgressiveMesh mesh = ends.base();
+        const Status done = ends.codec.decode(block, mesh);
+        ASSERT_FALSE(done);
+        EXPECT_NE(done.error().message.find("its layout is 2; this program reads layouts up to 1"), std::string::npos)
+            << done.error().message;
+    }
 }
 
 TEST(BaseCodecTest, BaseMeshesComeBackBitForBit) {

@@ -92,7 +92,7 @@ private:
         const EdgeStar star = mesh_.star(edge);
         const Evaluation evaluation = evaluator.evaluate(edge);
         const Fan& fan = evaluator.fan();
-        log_.record(mesh_, star);
+        log_.record(mesh_, star, evaluation.position);
         state_.quadrics[mesh_.origin(star.ij)] += state_.quadrics[mesh_.origin(star.ji)];
         state_.border.join(mesh_.origin(star.ij), mesh_.origin(star.ji));
         mesh_.collapse(star, evaluation.position);

@@ -225,8 +225,9 @@ TEST(VertexMoverTest, TheLogLeadsBackToWhereVerticesLay) {
     for (const HalfEdge h : p.edges()) {
         const EdgeStar star = p.mesh.star(h);
         if (p.mesh.valence(p.mesh.origin(star.ei)) < 4 || p.mesh.valence(p.mesh.origin(star.bj)) < 4) continue;
-        p.log.record(p.mesh, star);
-        p.mesh.collapse(star, p.mesh.position(p.mesh.origin(star.ij)));
+        const Vec3 position = p.mesh.position(p.mesh.origin(star.ij));
+        p.log.record(p.mesh, star, position);
+        p.mesh.collapse(star, position);
         break;
     }
     for (std::uint32_t f = 0; f < p.state.faces.size(); ++f) {

@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib
+import itertools
 import pathlib
 import subprocess
 import sys
@@ -396,8 +397,9 @@ class ClientTest(unittest.TestCase):
         golden = DATA / "golden"
         for shape in ("closed", "open"):
             points, faces = vsplit.load(golden / f"file_1_{shape}.vsplit").at(10**6)
-            for name, error in (("float64", 0), ("float32", 1e-6), ("quantised14", 1e-3)):
-                mesh = vsplit.load(golden / f"file_2_{name}_{shape}.vsplit")
+            encodings = (("float64", 0), ("float32", 1e-6), ("quantised14", 1e-3))
+            for version, (name, error) in itertools.product((2, 3), encodings):
+                mesh = vsplit.load(golden / f"file_{version}_{name}_{shape}.vsplit")
                 same_points, same_faces = mesh.at(10**6)
                 np.testing.assert_array_equal(same_faces, faces)
                 np.testing.assert_allclose(same_points, points, rtol=0, atol=error)

@@ -9,13 +9,20 @@
 #include <utility>
 #include <vector>
 
-#include "mrr/grid_codes.h"
 #include "mrr/look_ahead.h"
+#include "mrr/point_coder.h"
 #include "mrr/star.h"
 #include "mrr/symbols.h"
 #include "vsplit/mrr/progressive_mesh.h"
 
 namespace vsplit {
+
+/// How the records of a block are coded; its first byte says so.
+enum class BlockLayout : std::uint8_t {
+    kFirst,
+    kMeans  ///< points that are the mean of their ring say only that; two columns of places
+};
+inline constexpr BlockLayout kNewestLayout = BlockLayout::kMeans;
 
 /// Codes one record after the other relative to the mesh it is applied to, and applies it. What is predicted depends on the mesh
 /// as it stands and on the records of the block before; the mesh is the same whichever way it was reached.
@@ -25,7 +32,8 @@ namespace vsplit {
 template <class Symbols, class Codes>
 class BlockCoder {
 public:
-    BlockCoder(Symbols symbols, const Codes& codes, ProgressiveMesh& mesh) : symbols_(symbols), codes_(codes), mesh_(mesh) {}
+    BlockCoder(Symbols symbols, const Codes& codes, ProgressiveMesh& mesh, BlockLayout layout)
+        : symbols_(symbols), mesh_(mesh), layout_(layout), points_(symbols, codes, star_, layout == BlockLayout::kMeans) {}
 
     /// Reading only: takes the places of all splits of the block at once, so that the mesh around the next ones can be fetched
     /// from memory while one is decoded.
@@ -63,8 +71,8 @@ public:
         star_.gather(mesh_, vertex);
         if (!code_fan(split)) [[unlikely]]
             return bad("a fan that is none of the vertex");
-        code_positions(split);
-        if (!in_range_) [[unlikely]]
+        points_.code(split);
+        if (!points_.in_range()) [[unlikely]]
             return bad("a position that is not on the grid");
         const std::uint32_t added = mesh_.mesh().vertex_count();
         if (!taken(mesh_.refine(split, star_.corners()))) return false;
@@ -91,9 +99,8 @@ public:
         if (move.vertex >= mesh_.mesh().vertex_count()) return bad("a vertex that is not there");
         last_moved_ = move.vertex;
         star_.gather(mesh_, move.vertex);
-        const StarFrame frame(star_);
-        code_point(frame, columns(frame, column::kMoveAlong, column::kMoveAcross), {}, 0, move.position);
-        if (!in_range_) return bad("a position that is not on the grid");
+        points_.code(move);
+        if (!points_.in_range()) return bad("a position that is not on the grid");
         return taken(mesh_.refine(move));
     }
 
@@ -113,12 +120,17 @@ private:
         return false;
     }
 
+    /// With a bit more in a number, its high part means something else.
+    [[nodiscard]] unsigned place_column(std::uint32_t count) const {
+        return layout_ == BlockLayout::kMeans && std::bit_width(count - 1) % 2 != 0 ? column::kOddPlace : column::kPlace;
+    }
+
     void write_place(std::uint32_t vertex) {
         const unsigned low = low_bits(mesh_.mesh().vertex_count());
         const auto* const end = beside_.data() + beside_count_;
         const auto* const found = std::find<const std::uint32_t*>(beside_.data(), end, vertex);
         std::uint32_t symbol = found != end ? kBeside + static_cast<std::uint32_t>(found - beside_.data()) : vertex >> low;
-        symbols_.byte(column::kPlace, symbol);
+        symbols_.byte(place_column(mesh_.mesh().vertex_count()), symbol);
         std::uint32_t rest = vertex & ((1U << low) - 1);
         if (symbol < kBeside) symbols_.bits(column::kPlaceBits, rest, low);
     }
@@ -126,7 +138,7 @@ private:
     /// A vertex, or kIsBeside + its place in the list of those beside the record before.
     std::uint32_t read_place(std::uint32_t count) {
         std::uint32_t symbol = 0, rest = 0;
-        symbols_.byte(column::kPlace, symbol);
+        symbols_.byte(place_column(count), symbol);
         if (symbol >= kBeside) return kIsBeside + (symbol - kBeside);
         const unsigned low = low_bits(count);
         symbols_.bits(column::kPlaceBits, rest, low);
@@ -164,78 +176,6 @@ private:
         return true;
     }
 
-    /// Near the middle of the fan that goes over lies the new vertex, near that of the rest the old one. The weights were fitted
-    /// to meshes of all kinds and are part of the format.
-    void code_positions(VertexSplit& split) {
-        const StarFrame frame(star_);
-        const Columns to = columns(frame, column::kAlong, column::kAcross);
-        const Offset fan = mean_offset(0, split.steps);
-        const Offset rest = mean_offset(split.steps, star_.valence());
-        Offset ends{}, guess{};
-        for (int axis = 0; axis < 3; ++axis) {
-            ends[axis] = (star_.offsets()[0][axis] + star_.offsets()[split.steps][axis]) * 0.5;
-            guess[axis] = (0.5 * fan[axis] - 0.2 * rest[axis]) + 0.15 * ends[axis];
-        }
-        const bool plane = frame.has_plane();
-        const double fan_height = plane ? frame.height(fan) : 0;
-        const double rest_height = plane ? frame.height(rest) : 0;
-        const double ends_height = plane ? frame.height(ends) : 0;
-        code_point(frame, to, guess, (0.35 * fan_height - 0.15 * rest_height) + 0.1 * ends_height, split.added);
-        Offset added{};
-        for (int axis = 0; axis < 3; ++axis) {
-            added[axis] = split.added[axis] - star_.centre[axis];
-            guess[axis] = ((0.55 * rest[axis] - 0.4 * fan[axis]) + 0.1 * ends[axis]) + 0.4 * added[axis];
-        }
-        const double added_height = plane ? frame.height(added) : 0;
-        code_point(frame, to, guess, ((0.5 * rest_height - 0.35 * fan_height) + 0.05 * ends_height) + 0.4 * added_height,
-                   split.kept);
-    }
-
-    /// Of the neighbours from `first` to `last`, both included.
-    Offset mean_offset(std::uint32_t first, std::uint32_t last) const {
-        const Offset* const offsets = star_.offsets();
-        double x = 0, y = 0, z = 0;
-        for (std::uint32_t n = first; n <= last; ++n) {
-            x += offsets[n][0];
-            y += offsets[n][1];
-            z += offsets[n][2];
-        }
-        const double count = last - first + 1;
-        return {x / count, y / count, z / count};
-    }
-
-    /// Where the coordinates of a point go: along the two axes of the plane, and across it.
-    struct Columns {
-        unsigned u = 0, v = 0, w = 0;
-    };
-
-    Columns columns(const StarFrame& frame, unsigned along, unsigned across) const {
-        const auto along_axis = [&](unsigned axis) { return along + codes_.scale(frame.reach[axis], star_.centre[axis]); };
-        const unsigned w = frame.across;
-        return {along_axis((w + 1) % 3), along_axis((w + 2) % 3),
-                frame.has_plane() ? across + codes_.scale(frame.thickness, star_.centre[w]) : along_axis(w)};
-    }
-
-    /// `guess` is an offset from the centre, `height` one over the plane: the two coordinates along the plane come first, and
-    /// with them the plane says where to expect the third.
-    void code_point(const StarFrame& frame, const Columns& to, const Offset& guess, double height, Vec3& point) {
-        const Offset& centre = star_.centre;
-        const unsigned u = (frame.across + 1) % 3, v = (frame.across + 2) % 3, w = frame.across;
-        put(to.u, centre[u] + guess[u], u, point);
-        put(to.v, centre[v] + guess[v], v, point);
-        if (!frame.has_plane()) {
-            put(to.w, centre[w] + guess[w], w, point);
-            return;
-        }
-        const double slope =
-            (frame.normal[u] * (point[u] - centre[u]) + frame.normal[v] * (point[v] - centre[v])) / frame.normal[w];
-        put(to.w, (centre[w] - slope) + height, w, point);
-    }
-
-    void put(unsigned column, double expected, unsigned axis, Vec3& point) {
-        if (in_range_) in_range_ = code_coordinate(symbols_, codes_, column, expected, axis, point[axis]);
-    }
-
     void note_beside(std::uint32_t vertex, std::uint32_t added) {
         const std::uint32_t most = std::min(star_.valence(), kBeside - 2);
         beside_count_ = 2 + most;
@@ -245,9 +185,10 @@ private:
     }
 
     Symbols symbols_;
-    const Codes codes_;
     ProgressiveMesh& mesh_;
+    const BlockLayout layout_;
     Star star_;
+    PointCoder<Symbols, Codes> points_;
     Error error_{};
     std::array<std::uint32_t, kBeside> beside_{};
     std::uint32_t beside_count_ = 0;
@@ -255,7 +196,6 @@ private:
     std::size_t next_ = 0;
     LookAhead look_ahead_{mesh_};
     std::uint32_t last_moved_ = kNone;  // so that the first move counts from vertex 0
-    bool in_range_ = true;
 };
 
 }  // namespace vsplit

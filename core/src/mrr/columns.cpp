@@ -6,8 +6,13 @@
 namespace vsplit {
 namespace {
 
-// There is little to find in columns but how often each symbol comes; higher levels find repetitions by chance and gain nothing.
+// There is little to find in most columns but how often each symbol comes: repetitions there are by chance and cost more than
+// they save. Columns of regular parts do repeat themselves. So both is tried; higher levels gain little for their time.
+struct Search {
+    int least_match, hash_log;  // 0: as the level has it
+};
 constexpr int kZstdLevel = 1;
+constexpr Search kSearches[] = {{0, 0}, {7, 6}};
 
 void append_varint(std::string& to, std::size_t value) {
     for (; value >= 0x80; value >>= 7U) to.push_back(static_cast<char>(0x80U | (value & 0x7FU)));
@@ -54,8 +59,22 @@ void ColumnWriter::clear() {
     }
 }
 
+std::span<const std::uint8_t> ColumnWriter::compress(std::span<const std::uint8_t> column) {
+    std::span<const std::uint8_t> shortest = column;
+    for (const Search& search : kSearches) {
+        ZSTD_CCtx_setParameter(zstd_.get(), ZSTD_c_compressionLevel, kZstdLevel);
+        ZSTD_CCtx_setParameter(zstd_.get(), ZSTD_c_minMatch, search.least_match);
+        ZSTD_CCtx_setParameter(zstd_.get(), ZSTD_c_hashLog, search.hash_log);
+        tried_.resize(ZSTD_compressBound(column.size()));
+        const std::size_t size = ZSTD_compress2(zstd_.get(), tried_.data(), tried_.size(), column.data(), column.size());
+        if (ZSTD_isError(size) != 0U || size >= shortest.size()) continue;
+        std::swap(tried_, shortest_);
+        shortest = std::span(shortest_).first(size);
+    }
+    return shortest;
+}
+
 void ColumnWriter::pack(std::string& payload) {
-    std::vector<std::uint8_t> compressed;
     const auto put = [&payload](unsigned number, bool is_compressed, std::span<const std::uint8_t> bytes) {
         payload.push_back(static_cast<char>(number));
         append_varint(payload, bytes.size() * 2 + (is_compressed ? 1 : 0));
@@ -63,11 +82,8 @@ void ColumnWriter::pack(std::string& payload) {
     };
     for (unsigned c = 0; c < column::kCount; ++c) {
         if (columns_[c].empty()) continue;
-        compressed.resize(ZSTD_compressBound(columns_[c].size()));
-        const std::size_t size = ZSTD_compressCCtx(zstd_.get(), compressed.data(), compressed.size(), columns_[c].data(),
-                                                   columns_[c].size(), kZstdLevel);
-        const bool shorter = ZSTD_isError(size) == 0U && size < columns_[c].size();
-        put(c, shorter, shorter ? std::span(compressed).first(size) : std::span(columns_[c]));
+        const std::span<const std::uint8_t> bytes = compress(columns_[c]);
+        put(c, bytes.size() < columns_[c].size(), bytes);
     }
     for (unsigned c = column::kBits; c < column::kAll; ++c) {
         Bits& of = bits_[c - column::kBits];

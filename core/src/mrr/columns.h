@@ -21,6 +21,8 @@ namespace vsplit {
 namespace column {
 inline constexpr unsigned kKinds = 0;
 inline constexpr unsigned kPlace = 1;      // of a split: beside the one before, or the high part of a vertex's number
+inline constexpr unsigned kOddPlace = 2;   // the same where the number has an odd number of bits
+inline constexpr unsigned kMean = 3;       // how far points are from the mean of their ring, of those that are nearly there
 inline constexpr unsigned kFan = 2;        // + valence 3 .. 10: which faces go over
 inline constexpr unsigned kLargeFan = 13;  // of larger valences
 inline constexpr unsigned kFlip = 14;      // high part of a half-edge
@@ -71,6 +73,9 @@ struct TokenTable {
 };
 inline constexpr TokenTable kTokens;
 
+/// In place of a number: the point is the mean of its ring but for what column::kMean says.
+inline constexpr std::uint8_t kIsMean = 255;
+
 /// Numbers with a sign as numbers without: 0, -1, 1, -2, 2 ...
 [[nodiscard]] inline std::uint32_t to_zigzag(std::int32_t value) {
     return static_cast<std::uint32_t>(value) << 1U ^ static_cast<std::uint32_t>(value >> 31);
@@ -119,6 +124,10 @@ private:
         }
     };
     std::array<Bits, column::kAll - column::kBits> bits_;
+
+    /// As short as it gets: `column` itself, or a zstd frame that is there until the next call.
+    std::span<const std::uint8_t> compress(std::span<const std::uint8_t> column);
+    std::vector<std::uint8_t> tried_, shortest_;
     struct Free {
         void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
     };
@@ -153,6 +162,14 @@ public:
     [[nodiscard]] std::uint32_t number(unsigned column) {
         const TokenTable::Entry token = kTokens.entries[byte(column)];
         return token.value | bits(column::kBits, token.bits);
+    }
+    /// Whether the column's next symbol is this one; only then is it read.
+    [[nodiscard]] bool skip(unsigned column, std::uint8_t symbol) {
+        Cursor& at = columns_[column];
+        if (at.next == at.end || *at.next != symbol) [[likely]]
+            return false;
+        ++at.next;
+        return true;
     }
     /// All symbols of a column, which then are read.
     [[nodiscard]] std::span<const std::uint8_t> take(unsigned column) {

@@ -21,7 +21,7 @@ namespace vsplit {
 inline constexpr std::string_view kMrrMagic = "\x89VSP\r\n\x1a\n";
 
 /// Files are written in this version; this one and all before it are read.
-inline constexpr std::uint32_t kMrrVersion = 2;
+inline constexpr std::uint32_t kMrrVersion = 3;
 
 /// Offsets that all versions have in common; counts are little-endian u32.
 inline constexpr std::size_t kMrrVersionAt = 8;
@@ -40,7 +40,7 @@ inline constexpr std::size_t kMrr1HeaderBytes = 48;
 /// Before each block's payload: first, count, encoding, payload bytes, CRC-32C of the payload.
 inline constexpr std::size_t kMrr1BlockHeaderBytes = 20;
 
-/// Version 2: any encoding, an index of all blocks in front of them.
+/// From version 2 on: any encoding, an index of all blocks in front of them. In version 3 blocks may be of layout 1.
 inline constexpr std::size_t kMrr2BlocksAt = 40;
 inline constexpr std::size_t kMrr2EncodingAt = 44;
 inline constexpr std::size_t kMrr2BitsAt = 48;

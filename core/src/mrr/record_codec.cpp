@@ -6,11 +6,14 @@
 
 #include "mrr/block_checks.h"
 #include "mrr/block_coder.h"
+#include "mrr/grid_codes.h"
 
 namespace vsplit {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 1;  // bits a coordinate; 0 for float32
+constexpr std::size_t kHeaderBytes = 1;  // bits a coordinate, 0 for float32, and from kLayoutBit on the layout
+constexpr unsigned kLayoutBit = 5;
+static_assert(kMostBits < 1U << kLayoutBit);
 
 /// What the columns of a record unpack to at most: a kind, a place, a fan and six coordinates, with all their bits.
 constexpr std::size_t kMostUnpackedBytes = 64;
@@ -28,7 +31,7 @@ struct RecordCodec::Impl {
     template <class Codes>
     Status write(const RecordSpan& records, ProgressiveMesh& mesh);
     template <class Codes>
-    Status read(const RecordBlock& block, ProgressiveMesh& mesh, RecordList* records);
+    Status read(const RecordBlock& block, BlockLayout layout, ProgressiveMesh& mesh, RecordList* records);
     [[nodiscard]] Status write_any(const RecordSpan& records, ProgressiveMesh& mesh) {
         return grid.encoding() == RecordEncoding::kFloat32 ? write<Float32Codes>(records, mesh)
                                                            : write<QuantisedCodes>(records, mesh);
@@ -47,7 +50,7 @@ const PositionGrid& RecordCodec::grid() const { return impl_->grid; }
 
 template <class Codes>
 Status RecordCodec::Impl::write(const RecordSpan& records, ProgressiveMesh& mesh) {
-    BlockCoder<SymbolWriter, Codes> coder(SymbolWriter(writer), Codes(grid), mesh);
+    BlockCoder<SymbolWriter, Codes> coder(SymbolWriter(writer), Codes(grid), mesh, kNewestLayout);
     mesh.reserve(records.splits.size(), records.flips.size(), records.moves.size());
     coder.foresee(records.splits);
     bool coded = true;
@@ -67,7 +70,7 @@ Expected<RecordBlock> RecordCodec::Impl::encode_compact(const RecordList& record
             mesh.rewind(before);
             return written.error();
         }
-        block.payload.push_back(static_cast<char>(grid.bits()));
+        block.payload.push_back(static_cast<char>(grid.bits() | static_cast<unsigned>(kNewestLayout) << kLayoutBit));
         writer.pack(block.payload);
         if (block.payload.size() <= kMaxBlockBytes) {
             block.crc32c = crc32c(std::as_bytes(std::span(block.payload)));
@@ -78,13 +81,13 @@ Expected<RecordBlock> RecordCodec::Impl::encode_compact(const RecordList& record
 }
 
 template <class Codes>
-Status RecordCodec::Impl::read(const RecordBlock& block, ProgressiveMesh& mesh, RecordList* records) {
+Status RecordCodec::Impl::read(const RecordBlock& block, BlockLayout layout, ProgressiveMesh& mesh, RecordList* records) {
     const std::span<const std::uint8_t> kinds = reader.take(column::kKinds);
     if (kinds.size() != block.count) {
         return corrupt_block(
             block, "it has " + std::to_string(kinds.size()) + " kinds of records for a count of " + std::to_string(block.count));
     }
-    BlockCoder<SymbolReader, Codes> coder(SymbolReader(reader), Codes(grid), mesh);
+    BlockCoder<SymbolReader, Codes> coder(SymbolReader(reader), Codes(grid), mesh, layout);
     const auto take = [&](auto record) {
         if (!coder.code(record)) return false;
         if (records != nullptr) records->push_back(record);
@@ -114,15 +117,21 @@ Status RecordCodec::Impl::decode_compact(const RecordBlock& block, ProgressiveMe
                                         std::to_string(kMaxBlockRecords) + " a block may have");
     }
     const auto payload = std::as_bytes(std::span(block.payload));
-    if (payload.empty() || static_cast<std::uint32_t>(payload[0]) != grid.bits()) {
+    const unsigned header = payload.empty() ? 0xFFU : static_cast<unsigned>(payload[0]);
+    if (header % (1U << kLayoutBit) != grid.bits())
         return corrupt_block(block, "it is not of " + std::to_string(grid.bits()) + " bits a coordinate, as the base mesh was");
+    const auto layout = static_cast<BlockLayout>(header >> kLayoutBit);
+    if (layout > kNewestLayout) {
+        return corrupt_block(block, "its layout is " + std::to_string(header >> kLayoutBit) +
+                                        "; this program reads layouts up to " +
+                                        std::to_string(static_cast<unsigned>(kNewestLayout)));
     }
     if (Status unpacked = reader.unpack(payload.subspan(kHeaderBytes), block.count * kMostUnpackedBytes); !unpacked)
         return corrupt_block(block, unpacked.error().message);
     const std::size_t before = mesh.records();
     const std::size_t kept = records == nullptr ? 0 : records->size();
-    Status done = grid.encoding() == RecordEncoding::kFloat32 ? read<Float32Codes>(block, mesh, records)
-                                                              : read<QuantisedCodes>(block, mesh, records);
+    Status done = grid.encoding() == RecordEncoding::kFloat32 ? read<Float32Codes>(block, layout, mesh, records)
+                                                              : read<QuantisedCodes>(block, layout, mesh, records);
     if (done) return done;
     mesh.rewind(before);
     if (records != nullptr) records->truncate(kept);

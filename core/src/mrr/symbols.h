@@ -15,6 +15,11 @@ public:
     void byte(unsigned column, std::uint32_t& value) { columns_.byte(column, static_cast<std::uint8_t>(value)); }
     void bits(unsigned column, std::uint32_t& value, unsigned width) { columns_.bits(column, value, width); }
     void number(unsigned column, std::uint32_t& value) { columns_.number(column, value); }
+    /// Whether kIsMean stands in place of a number.
+    [[nodiscard]] bool mean(unsigned column, bool is_mean) {
+        if (is_mean) columns_.byte(column, kIsMean);
+        return is_mean;
+    }
     [[nodiscard]] static bool ran_short() { return false; }
 
 private:
@@ -29,6 +34,7 @@ public:
     void byte(unsigned column, std::uint32_t& value) { value = columns_.byte(column); }
     void bits(unsigned column, std::uint32_t& value, unsigned width) { value = columns_.bits(column, width); }
     void number(unsigned column, std::uint32_t& value) { value = columns_.number(column); }
+    [[nodiscard]] bool mean(unsigned column, bool /*is_mean*/) { return columns_.skip(column, kIsMean); }
     [[nodiscard]] bool ran_short() const { return columns_.ran_short(); }
 
 private:

@@ -86,13 +86,15 @@ private:
 
 }  // namespace
 
-void CollapseLog::record(const HalfEdgeMesh& mesh, const EdgeStar& star) {
+void CollapseLog::record(const HalfEdgeMesh& mesh, const EdgeStar& star, const Vec3& position) {
     keep_net_moves(mesh);
     const std::uint32_t i = mesh.origin(star.ij);
     const std::uint32_t j = mesh.origin(star.ji);
     const std::uint32_t valence_i = mesh.valence(i), valence_j = mesh.valence(j);
     Entry entry;
-    entry.is_gone_new = valence_j <= valence_i;
+    // The fan of j begins at b, that of i at e.
+    const auto distance = [&](HalfEdge h) { return (mesh.position(mesh.origin(h)) - position).squaredNorm(); };
+    entry.is_gone_new = valence_i == valence_j ? distance(star.bj) <= distance(star.ei) : valence_j < valence_i;
     entry.ij = entry.is_gone_new ? star.ij : star.ji;
     entry.ji = entry.is_gone_new ? star.ji : star.ij;
     entry.anchor = entry.is_gone_new ? star.jb : star.ie;

@@ -15,8 +15,9 @@ public:
     /// Makes room for so many collapses; memory is taken as it is used.
     void reserve(std::size_t collapses) { entries_.reserve(collapses); }
 
-    /// Call before the collapse, while the star still stands and all edits of the step before are made. O(moves since).
-    void record(const HalfEdgeMesh& mesh, const EdgeStar& star);
+    /// Call before the collapse, which leaves the vertex at `position`, while the star still stands and all edits of the step
+    /// before are made. O(moves since).
+    void record(const HalfEdgeMesh& mesh, const EdgeStar& star, const Vec3& position);
 
     /// The edge of h was turned counter-clockwise: HalfEdgeMesh::flip(h). O(1).
     void record_flip(HalfEdge h);
@@ -36,7 +37,8 @@ public:
     /// or moved. O(faces + records log(records)). Empties the log.
     ///
     /// What is free is chosen so that records and base mesh take few bytes: of the two vertices of a split the one with fewer
-    /// edges is the new one, moves between two splits go by vertex, and the base mesh is numbered as walk_faces goes.
+    /// edges is the new one, of two with as many the one whose fan begins at the nearer end; moves between two splits go by
+    /// vertex, and the base mesh is numbered as walk_faces goes.
     [[nodiscard]] MultiresMesh build(const HalfEdgeMesh& mesh);
 
 private:

@@ -287,7 +287,7 @@ private:
             return drop(edge);  // until its neighbourhood changes
         }
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
-        log_.record(mesh_, star);
+        log_.record(mesh_, star, evaluation.position);
         if constexpr (!Policy::kExtended) stretch_sum_ -= visible_stretch(face_of(star.ij)) + visible_stretch(face_of(star.ji));
         const std::uint32_t kept = mesh_.origin(star.ij), removed = mesh_.origin(star.ji);
         state_.quadrics[kept] += state_.quadrics[removed];

@@ -158,7 +158,7 @@ const steps = {
     await refused("photo.jpg", readFileSync(join(data, "../../docs/images/page.jpg")).subarray(0, 3000), /^[A-Z_]+ photo\.jpg: by its name it is no mesh file \(accepted: STL, /);
     await refused("bad.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n", /^[A-Z_]+ bad\.stl: (line|byte) /);
     for (const [name, words] of Object.entries({
-      "mrr_of_version_3.vsplit": /^UNSUPPORTED mrr_of_version_3\.vsplit: byte 8: the file is of version 3 of the format/,
+      "mrr_of_version_4.vsplit": /^UNSUPPORTED mrr_of_version_4\.vsplit: byte 8: the file is of version 4 of the format/,
       "mrr_cut_in_block.vsplit": /^TRUNCATED_INPUT mrr_cut_in_block\.vsplit: byte 330/,
       "mrr_changed_split.vsplit": /^CORRUPT mrr_changed_split\.vsplit: .*record 0/,
     })) {

@@ -1,4 +1,4 @@
-import { Column, ColumnReader, fromZigzag, lowBits } from "./columns.js";
+import { bitWidth, Column, ColumnReader, fromZigzag, lowBits } from "./columns.js";
 import { crc32c } from "./crc32c.js";
 import { CorruptError } from "./errors.js";
 import { codesOf, Encoding, largestCoordinate, type Codes, type Grid } from "./grid.js";
@@ -19,6 +19,10 @@ const mostBlockRecords = 65536;
 const mostUnpackedBytes = 64;
 const beside = 128;
 const mostCodedFan = 10;
+/** In the first byte of a payload, above the bits a coordinate. */
+const layoutBit = 5;
+const newestLayout = 1;
+const isMean = 255;
 
 /** Decodes blocks onto a mesh, one after the other: the counterpart of core's RecordCodec. */
 export class RecordDecoder {
@@ -29,6 +33,8 @@ export class RecordDecoder {
   private lastMoved = -1;
   private columns!: ColumnReader;
   private inRange = true;
+  /** Layout 1: points that are the mean of their ring say only that, and places have two columns. */
+  private knowsMeans = false;
   private readonly point = new Float64Array(3);
   private readonly centre = new Float64Array(3);
   private readonly guess = new Float64Array(3);
@@ -63,7 +69,11 @@ export class RecordDecoder {
 
   private decodeCompact(block: RecordBlock, mesh: ProgressiveMesh): void {
     if (block.count > mostBlockRecords) throw new CorruptError(`${block.count} records are more than ${mostBlockRecords}`);
-    if (block.payload[0] !== this.grid.bits) throw new CorruptError(`it is not of ${this.grid.bits} bits a coordinate`);
+    const header = block.payload[0] ?? 0xff;
+    const layout = header >> layoutBit;
+    if (header % (1 << layoutBit) !== this.grid.bits) throw new CorruptError(`it is not of ${this.grid.bits} bits a coordinate`);
+    if (layout > newestLayout) throw new CorruptError(`its layout is ${layout}; this program reads layouts up to ${newestLayout}`);
+    this.knowsMeans = layout > 0;
     const columns = (this.columns = new ColumnReader(block.payload.subarray(1), block.count * mostUnpackedBytes));
     const kinds = columns.take(Column.Kinds);
     if (kinds.length !== block.count) throw new CorruptError(`${kinds.length} kinds of records for a count of ${block.count}`);
@@ -85,7 +95,8 @@ export class RecordDecoder {
   }
 
   private place(mesh: ProgressiveMesh): number {
-    const symbol = this.columns.byte(Column.Place);
+    const odd = this.knowsMeans && bitWidth(mesh.vertexCount) % 2 === 1;
+    const symbol = this.columns.byte(odd ? Column.OddPlace : Column.Place);
     if (symbol >= beside) {
       if (symbol - beside >= this.besideCount) throw new CorruptError("a vertex that is not there");
       return this.besideList[symbol - beside]!;
@@ -144,17 +155,38 @@ export class RecordDecoder {
     guess[0] = 0.5 * fx - 0.2 * rx + 0.15 * ex;
     guess[1] = 0.5 * fy - 0.2 * ry + 0.15 * ey;
     guess[2] = 0.5 * fz - 0.2 * rz + 0.15 * ez;
-    this.codePoint(0.35 * fanHeight - 0.15 * restHeight + 0.1 * endsHeight, Column.Along, Column.Across);
-    const ax = point[0]!, ay = point[1]!, az = point[2]!;
-    const dx = ax - star.cx, dy = ay - star.cy, dz = az - star.cz;
-    guess[0] = 0.55 * rx - 0.4 * fx + 0.1 * ex + 0.4 * dx;
-    guess[1] = 0.55 * ry - 0.4 * fy + 0.1 * ey + 0.4 * dy;
-    guess[2] = 0.55 * rz - 0.4 * fz + 0.1 * ez + 0.4 * dz;
-    const addedHeight = hasPlane ? star.height(dx, dy, dz) : 0;
-    this.codePoint(0.5 * restHeight - 0.35 * fanHeight + 0.05 * endsHeight + 0.4 * addedHeight, Column.Along, Column.Across);
+    // Of the new vertex, as far as it is known; where it is the mean of its ring the other one comes first.
+    let ax = guess[0]!, ay = guess[1]!, az = guess[2]!, addedHeight = 0.35 * fanHeight - 0.15 * restHeight + 0.1 * endsHeight;
+    const addedIsMean = this.skipMean();
+    if (!addedIsMean) {
+      this.codePoint(addedHeight, Column.Along, Column.Across);
+      ax = point[0]! - star.cx;
+      ay = point[1]! - star.cy;
+      az = point[2]! - star.cz;
+      addedHeight = hasPlane ? star.height(ax, ay, az) : 0;
+    }
+    let px = point[0]!, py = point[1]!, pz = point[2]!;
+    if (!addedIsMean && this.skipMean()) {
+      this.codeMean((rx * inRest + ax) / (inRest + 1), (ry * inRest + ay) / (inRest + 1), (rz * inRest + az) / (inRest + 1));
+    } else {
+      guess[0] = 0.55 * rx - 0.4 * fx + 0.1 * ex + 0.4 * ax;
+      guess[1] = 0.55 * ry - 0.4 * fy + 0.1 * ey + 0.4 * ay;
+      guess[2] = 0.55 * rz - 0.4 * fz + 0.1 * ez + 0.4 * az;
+      this.codePoint(0.5 * restHeight - 0.35 * fanHeight + 0.05 * endsHeight + 0.4 * addedHeight, Column.Along, Column.Across);
+    }
+    const kx = point[0]!, ky = point[1]!, kz = point[2]!;
+    if (addedIsMean) {
+      ax = kx - star.cx;
+      ay = ky - star.cy;
+      az = kz - star.cz;
+      this.codeMean((fx * inFan + ax) / (inFan + 1), (fy * inFan + ay) / (inFan + 1), (fz * inFan + az) / (inFan + 1));
+      px = point[0]!;
+      py = point[1]!;
+      pz = point[2]!;
+    }
     if (!this.inRange) throw new CorruptError("a position that is not on the grid");
     const added = mesh.vertexCount;
-    mesh.split(anchor, steps, point[0]!, point[1]!, point[2]!, ax, ay, az);
+    mesh.split(anchor, steps, kx, ky, kz, px, py, pz);
     this.noteBeside(vertex, added);
     this.lastMoved = -1;
   }
@@ -190,6 +222,26 @@ export class RecordDecoder {
     this.codePoint(0, Column.MoveAlong, Column.MoveAcross);
     if (!this.inRange) throw new CorruptError("a position that is not on the grid");
     mesh.move(vertex, this.point[0]!, this.point[1]!, this.point[2]!);
+  }
+
+  /** Whether a point of a split is the mean of its ring, but for what column Mean says. */
+  private skipMean(): boolean {
+    if (!this.knowsMeans) return false;
+    const { star } = this;
+    const u = star.across === 2 ? 0 : star.across + 1;
+    const centre = u === 0 ? star.cx : u === 1 ? star.cy : star.cz;
+    return this.columns.skip(Column.Along + this.codes!.scale(star.reach[u]!, centre), isMean);
+  }
+
+  /** The offset of the mean from the centre. */
+  private codeMean(dx: number, dy: number, dz: number): void {
+    const { star, point } = this;
+    const codes = this.codes!;
+    const off = this.columns.byte(Column.Mean);
+    point[0] = codes.decode(star.cx + dx, Math.trunc(off / 9) - 1, 0);
+    point[1] = codes.decode(star.cy + dy, (Math.trunc(off / 3) % 3) - 1, 1);
+    point[2] = codes.decode(star.cz + dz, (off % 3) - 1, 2);
+    this.inRange &&= off < 27 && !Number.isNaN(point[0]! + point[1]! + point[2]!);
   }
 
   private codePoint(height: number, along: number, across: number): void {

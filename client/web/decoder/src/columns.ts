@@ -5,6 +5,8 @@ import { CorruptError } from "./errors.js";
 export const enum Column {
   Kinds = 0,
   Place = 1,
+  OddPlace = 2,
+  Mean = 3,
   Fan = 2,
   LargeFan = 13,
   Flip = 14,
@@ -116,6 +118,14 @@ export class ColumnReader {
     return this.bytes[at]!;
   }
 
+  /** Whether the column's next symbol is this one; only then is it read. */
+  skip(column: number, symbol: number): boolean {
+    const at = this.at[column]!;
+    if (at >= this.end[column]! || this.bytes[at] !== symbol) return false;
+    this.at[column] = at + 1;
+    return true;
+  }
+
   private bits(of: BitColumn, width: number): number {
     if (width === 0) return 0;
     if (width <= of.left) return of.read(width);
@@ -191,9 +201,14 @@ function bitColumn(from: Stored | undefined, column: number): BitColumn {
   return new BitColumn(bytes, 8 * size);
 }
 
+/** Of the largest number below `count`. */
+export function bitWidth(count: number): number {
+  return 32 - Math.clz32(count - 1);
+}
+
 /** How many of the bits of a number below `count` are stored as they are. */
 export function lowBits(count: number): number {
-  return Math.max(0, 32 - Math.clz32(count - 1) - 7);
+  return Math.max(0, bitWidth(count) - 7);
 }
 
 /** 0, 1, 2, 3, 4 ... as 0, -1, 1, -2, 2 ... */

@@ -16,7 +16,7 @@ export class MrrFileError extends Error {
 }
 
 const mark = [0x89, 0x56, 0x53, 0x50, 0x0d, 0x0a, 0x1a, 0x0a];
-const newest = 2;
+const newest = 3;
 const regionsTag = [0x52, 0x45, 0x47, 0x4e];
 
 /** Where the numbers of the header are that all versions have. */
@@ -61,7 +61,7 @@ const units = [undefined, "um", "mm", "cm", "m", "in", "ft"] as const;
 interface Sections {
   base: [from: number, to: number];
   description: [from: number, to: number];
-  /** Of version 2. */
+  /** From version 2 on. */
   index: [from: number, to: number];
   blocks: number;
 }
@@ -125,7 +125,7 @@ export class MrrFile {
     this.sections = this.findSections();
     this.checkSizes();
     this.description = new TextDecoder().decode(bytes.subarray(...this.sections.description));
-    if (this.version === 2) {
+    if (this.version > 1) {
       this.unit = this.readUnit();
       this.maxError = this.length(At2.MaxError, false);
       this.baseDeviation = this.length(At2.BaseDeviation, true);
