@@ -1,0 +1,54 @@
+import type { Star } from "./star.js";
+
+/** Index of the height over the plane beside those of x, y and z. */
+export const height = 3;
+
+/**
+ * Where to expect the two vertices of a split, as offsets from the vertex that is split: near the middle of the fan that goes over
+ * lies the new one, near that of the rest the old one. The weights are part of the format. Bit for bit as in C++.
+ */
+export class Guess {
+  private readonly fan = new Float64Array(4);
+  private readonly rest = new Float64Array(4);
+  private readonly ends = new Float64Array(4);
+  private readonly added = new Float64Array(4);
+
+  /** The star begins with the fan, and `lie(steps)` was done. */
+  begin(star: Star, steps: number): void {
+    const { fan, rest, ends } = this;
+    const { offsets, sums } = star;
+    const inFan = steps + 1, inRest = star.valence - steps + 1;
+    const from = 3 * star.slot(0), to = 3 * star.slot(steps);
+    for (let axis = 0; axis < 3; ++axis) {
+      fan[axis] = sums[axis]! / inFan;
+      rest[axis] = sums[3 + axis]! / inRest;
+      ends[axis] = (offsets[from + axis]! + offsets[to + axis]!) * 0.5;
+    }
+    raise(fan, star);
+    raise(rest, star);
+    raise(ends, star);
+  }
+
+  /** Fills in x, y, z and height. */
+  forAdded(to: Float64Array): void {
+    const { fan, rest, ends } = this;
+    for (let axis = 0; axis < 3; ++axis) to[axis] = 0.5 * fan[axis]! - 0.2 * rest[axis]! + 0.15 * ends[axis]!;
+    to[height] = 0.35 * fan[height]! - 0.15 * rest[height]! + 0.1 * ends[height]!;
+  }
+
+  /** `places`: from 3 on where the new vertex lies. */
+  forKept(to: Float64Array, star: Star, places: Float64Array): void {
+    const { fan, rest, ends, added } = this;
+    for (let axis = 0; axis < 3; ++axis) {
+      added[axis] = places[3 + axis]! - star.centre[axis]!;
+      to[axis] = 0.55 * rest[axis]! - 0.4 * fan[axis]! + 0.1 * ends[axis]! + 0.4 * added[axis]!;
+    }
+    raise(added, star);
+    to[height] = 0.5 * rest[height]! - 0.35 * fan[height]! + 0.05 * ends[height]! + 0.4 * added[height]!;
+  }
+}
+
+/** Fills in the height of an offset over the star's plane, 0 where it has none. */
+function raise(offset: Float64Array, { normal, across, hasPlane }: Star): void {
+  offset[height] = hasPlane ? (normal[0]! * offset[0]! + normal[1]! * offset[1]! + normal[2]! * offset[2]!) / normal[across]! : 0;
+}
