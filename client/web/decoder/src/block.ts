@@ -4,7 +4,7 @@ import { CorruptError } from "./errors.js";
 import { codesOf, Encoding, largestCoordinate, type Codes, type Grid } from "./grid.js";
 import { Guess, height } from "./guess.js";
 import { LookAhead } from "./look_ahead.js";
-import { Kind, prev, type ProgressiveMesh } from "./mesh.js";
+import { Kind, next, prev, type ProgressiveMesh } from "./mesh.js";
 import { Star } from "./star.js";
 
 /** A `vsplit.v1.RecordBlock`. */
@@ -116,27 +116,29 @@ export class RecordDecoder {
     this.lookAhead.begin();
   }
 
-  private nextPlace(mesh: ProgressiveMesh): number {
+  /** Gathers the star of the next split's vertex. */
+  private nextStar(mesh: ProgressiveMesh): number {
     const { places, placesRead } = this;
     const n = this.placesTaken++;
     this.lookAhead.reach(n, mesh, places, placesRead);
     const place = places[n]! | 0;
-    const vertex = place < 0 ? this.vertexBeside(~place) : place;
-    if (vertex < 0 || vertex >= mesh.vertexCount) throw new CorruptError("a vertex that is not there");
+    const corner = place < 0 ? this.cornerBeside(~place, mesh) : place < mesh.vertexCount ? mesh.cornerOf[place]! | 0 : -1;
+    if (corner < 0) throw new CorruptError("a vertex that is not there");
+    const vertex = place < 0 ? mesh.vertexAt(corner) : place;
+    this.splitStar.gather(mesh, vertex, corner);
     return vertex;
   }
 
-  /** The n-th vertex beside the record before; -1 where there are not so many. */
-  private vertexBeside(n: number): number {
-    if (n < this.besideFirstCount) return this.besideFirst[n]!;
+  /** A corner at the n-th vertex beside the record before; -1 where there are not so many. */
+  private cornerBeside(n: number, mesh: ProgressiveMesh): number {
+    if (n < this.besideFirstCount) return mesh.cornerOf[this.besideFirst[n]!]!;
     const inRing = n - this.besideFirstCount;
-    return inRing < this.besideRingCount ? this.splitStar.vertex(inRing) : -1;
+    return inRing < this.besideRingCount ? next(this.splitStar.corner(inRing)) : -1;
   }
 
   private split(mesh: ProgressiveMesh): void {
     const { splitStar: star, guess, guessed, points, besideFirst } = this;
-    const vertex = this.nextPlace(mesh);
-    star.gather(mesh, vertex);
+    const vertex = this.nextStar(mesh);
     const steps = this.fan(star);
     star.lie(steps);
     this.codes!.scales(star, this.scales);
@@ -191,7 +193,7 @@ export class RecordDecoder {
     const vertex = (this.lastMoved + 1 + fromZigzag(step)) >>> 0;
     if (vertex >= mesh.vertexCount) throw new CorruptError("a vertex that is not there");
     this.lastMoved = vertex;
-    star.gather(mesh, vertex);
+    star.gather(mesh, vertex, mesh.cornerOf[vertex]!);
     star.lie(0);
     this.codes!.scales(star, this.scales);
     guessed.fill(0);

@@ -32,7 +32,9 @@ export class Guess {
   /** Fills in x, y, z and height. */
   forAdded(to: Float64Array): void {
     const { fan, rest, ends } = this;
-    for (let axis = 0; axis < 3; ++axis) to[axis] = 0.5 * fan[axis]! - 0.2 * rest[axis]! + 0.15 * ends[axis]!;
+    to[0] = 0.5 * fan[0]! - 0.2 * rest[0]! + 0.15 * ends[0]!;
+    to[1] = 0.5 * fan[1]! - 0.2 * rest[1]! + 0.15 * ends[1]!;
+    to[2] = 0.5 * fan[2]! - 0.2 * rest[2]! + 0.15 * ends[2]!;
     to[height] = 0.35 * fan[height]! - 0.15 * rest[height]! + 0.1 * ends[height]!;
   }
 

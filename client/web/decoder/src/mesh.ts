@@ -138,6 +138,18 @@ export class ProgressiveMesh {
     this.around[2 * next(corner)] = vertex;
   }
 
+  /** A face's vertices and, after each, the corner at it in the next face counter-clockwise. */
+  private putFace(first: number, a: number, afterA: number, b: number, afterB: number, c: number, afterC: number): void {
+    const { around } = this;
+    const at = (2 * first) | 0;
+    around[at] = c;
+    around[at + 1] = afterA;
+    around[at + 2] = a;
+    around[at + 3] = afterB;
+    around[at + 4] = b;
+    around[at + 5] = afterC;
+  }
+
   /** Two half-edges are each other's twins now. */
   private join(h: number, g: number): void {
     this.around[2 * next(h) + 1] = g;
@@ -181,25 +193,20 @@ export class ProgressiveMesh {
    * numbers. Room must have been made.
    */
   split(anchor: number, steps: number, places: Float64Array): void {
+    const { around } = this;
     const v = this.vertexAt(anchor), b = this.before(prev(anchor)), w = this.vertexCount | 0;
-    const behind = this.twin(anchor);
     let last = anchor | 0;
     for (let n = 1; n < steps; ++n) last = this.after(last);
-    const e = this.before(last), after = this.after(last);
+    const e = this.before(last), after = this.after(last), behind = this.twin(anchor);
     if (v < this.ghosts || (b < this.ghosts && e < this.ghosts)) throw new CorruptError("a split at or between ghosts");
-    for (let n = 0, corner = anchor | 0; n < steps; ++n, corner = this.after(corner)) this.seat(corner, w);
+    for (let n = 0, corner = anchor | 0; n < steps; ++n, corner = this.after(corner)) around[2 * next(corner)] = w;
     const first = (3 * this.faceCount) | 0;
-    this.seat(first, v);
-    this.seat(first + 1, w);
-    this.seat(first + 2, e);
-    this.seat(first + 3, w);
-    this.seat(first + 4, v);
-    this.seat(first + 5, b);
-    this.join(first, first + 3);
-    this.join(first + 1, prev(last));
-    this.join(first + 2, after);
-    this.join(first + 4, behind);
-    this.join(first + 5, anchor);
+    around[2 * last + 1] = first + 1;
+    around[2 * next(after) + 1] = first + 2;
+    around[2 * next(behind) + 1] = first + 4;
+    around[2 * next(anchor) + 1] = first + 5;
+    this.putFace(first, v, after, w, first + 3, e, prev(last));
+    this.putFace(first + 3, w, anchor, v, first, b, behind);
     this.cornerOf[v] = first;
     this.cornerOf[w] = first + 1;
     this.vertexCount = w + 1;

@@ -1,3 +1,4 @@
+import { highWord } from "./grid.js";
 import type { ProgressiveMesh } from "./mesh.js";
 
 /**
@@ -13,6 +14,9 @@ export class Star {
   private vertices = new Int32Array(64);
   private corners = new Int32Array(64);
   offsets = new Float64Array(3 * 64);
+  /** Of the offsets, and the same by their bits. */
+  private squares = new Float64Array(64);
+  private squareWords = new Int32Array(this.squares.buffer);
   /** Where in them the ring begins. */
   private first = 0;
 
@@ -23,21 +27,20 @@ export class Star {
   across = 0;
   hasPlane = false;
 
-  gather(mesh: ProgressiveMesh, vertex: number): void {
+  /** `start`: any corner at the vertex. */
+  gather(mesh: ProgressiveMesh, vertex: number, start: number): void {
     const { positions, around } = mesh;
     const { centre } = this;
-    let { vertices, corners, offsets } = this;
-    const start = mesh.cornerOf[vertex]! | 0;
+    let { vertices, corners, offsets, squares, squareWords } = this;
     const cx = positions[3 * vertex]!, cy = positions[3 * vertex + 1]!, cz = positions[3 * vertex + 2]!;
     let count = 0;
     let first = 0;
-    let nearest = -1;
-    let least = Infinity;
+    let least = 0x7fffffff;
     let corner = start;
     do {
       if (count === corners.length) {
         this.grow();
-        ({ vertices, corners, offsets } = this);
+        ({ vertices, corners, offsets, squares, squareWords } = this);
       }
       const neighbour = around[2 * corner]! | 0;
       corner = around[2 * corner + 1]! | 0;
@@ -48,12 +51,13 @@ export class Star {
       offsets[to] = dx;
       offsets[to + 1] = dy;
       offsets[to + 2] = dz;
-      const square = dx * dx + dy * dy + dz * dz;
-      if (square < least || (square === least && neighbour < nearest)) {
-        first = count;
-        nearest = neighbour;
-        least = square;
-      }
+      // Numbers that are not negative are in the order of their bits. Nobody can foresee which is the least, so it is computed from
+      // the upper words, not branched to; where those are the same, which is rare, all counts.
+      squares[count] = dx * dx + dy * dy + dz * dz;
+      const more = (squareWords[2 * count + highWord]! - least) | 0;
+      const nearer = more === 0 ? this.isNearer(count, first) : more >> 31;
+      least = (least + (more & nearer)) | 0;
+      first ^= (first ^ count) & nearer;
       count = (count + 1) | 0;
     } while (corner !== start);
     this.valence = count;
@@ -63,13 +67,21 @@ export class Star {
     centre[2] = cz;
   }
 
+  /** -1 where the neighbour in slot `a` is nearer than that in `b`, or as near and of a lower number, else 0. */
+  private isNearer(a: number, b: number): number {
+    const { squares, vertices } = this;
+    return squares[a]! < squares[b]! || (squares[a] === squares[b] && vertices[a]! < vertices[b]!) ? -1 : 0;
+  }
+
   private grow(): void {
     const size = 2 * this.corners.length;
-    const vertices = new Int32Array(size), corners = new Int32Array(size), offsets = new Float64Array(3 * size);
+    const vertices = new Int32Array(size), corners = new Int32Array(size);
+    const offsets = new Float64Array(3 * size), squares = new Float64Array(size);
     vertices.set(this.vertices);
     corners.set(this.corners);
     offsets.set(this.offsets);
-    Object.assign(this, { vertices, corners, offsets });
+    squares.set(this.squares);
+    Object.assign(this, { vertices, corners, offsets, squares, squareWords: new Int32Array(squares.buffer) });
   }
 
   /** Begins the ring `steps` later, less than the valence. */
