@@ -29,8 +29,7 @@ const f64Words = new Uint32Array(f64.buffer);
 const f32 = new Float32Array(1);
 const f32Word = new Uint32Array(f32.buffer);
 f64[0] = 1;
-/** Which word of a double has its sign, exponent and highest digits. */
-export const highWord = f64Words[1] === 0x3ff00000 ? 1 : 0;
+const highWord = f64Words[1] === 0x3ff00000 ? 1 : 0;
 
 function exponentField(value: number): number {
   f64[0] = value;

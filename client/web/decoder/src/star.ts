@@ -1,4 +1,3 @@
-import { highWord } from "./grid.js";
 import type { ProgressiveMesh } from "./mesh.js";
 
 /**
@@ -14,9 +13,6 @@ export class Star {
   private vertices = new Int32Array(64);
   private corners = new Int32Array(64);
   offsets = new Float64Array(3 * 64);
-  /** Of the offsets, and the same by their bits. */
-  private squares = new Float64Array(64);
-  private squareWords = new Int32Array(this.squares.buffer);
   /** Where in them the ring begins. */
   private first = 0;
 
@@ -31,16 +27,17 @@ export class Star {
   gather(mesh: ProgressiveMesh, vertex: number, start: number): void {
     const { positions, around } = mesh;
     const { centre } = this;
-    let { vertices, corners, offsets, squares, squareWords } = this;
+    let { vertices, corners, offsets } = this;
     const cx = positions[3 * vertex]!, cy = positions[3 * vertex + 1]!, cz = positions[3 * vertex + 2]!;
     let count = 0;
     let first = 0;
-    let least = 0x7fffffff;
+    let nearest = -1;
+    let least = Infinity;
     let corner = start;
     do {
       if (count === corners.length) {
         this.grow();
-        ({ vertices, corners, offsets, squares, squareWords } = this);
+        ({ vertices, corners, offsets } = this);
       }
       const neighbour = around[2 * corner]! | 0;
       corner = around[2 * corner + 1]! | 0;
@@ -51,13 +48,12 @@ export class Star {
       offsets[to] = dx;
       offsets[to + 1] = dy;
       offsets[to + 2] = dz;
-      // Numbers that are not negative are in the order of their bits. Nobody can foresee which is the least, so it is computed from
-      // the upper words, not branched to; where those are the same, which is rare, all counts.
-      squares[count] = dx * dx + dy * dy + dz * dz;
-      const more = (squareWords[2 * count + highWord]! - least) | 0;
-      const nearer = more === 0 ? this.isNearer(count, first) : more >> 31;
-      least = (least + (more & nearer)) | 0;
-      first ^= (first ^ count) & nearer;
+      const square = dx * dx + dy * dy + dz * dz;
+      if (square < least || (square === least && neighbour < nearest)) {
+        first = count;
+        nearest = neighbour;
+        least = square;
+      }
       count = (count + 1) | 0;
     } while (corner !== start);
     this.valence = count;
@@ -67,21 +63,13 @@ export class Star {
     centre[2] = cz;
   }
 
-  /** -1 where the neighbour in slot `a` is nearer than that in `b`, or as near and of a lower number, else 0. */
-  private isNearer(a: number, b: number): number {
-    const { squares, vertices } = this;
-    return squares[a]! < squares[b]! || (squares[a] === squares[b] && vertices[a]! < vertices[b]!) ? -1 : 0;
-  }
-
   private grow(): void {
     const size = 2 * this.corners.length;
-    const vertices = new Int32Array(size), corners = new Int32Array(size);
-    const offsets = new Float64Array(3 * size), squares = new Float64Array(size);
+    const vertices = new Int32Array(size), corners = new Int32Array(size), offsets = new Float64Array(3 * size);
     vertices.set(this.vertices);
     corners.set(this.corners);
     offsets.set(this.offsets);
-    squares.set(this.squares);
-    Object.assign(this, { vertices, corners, offsets, squares, squareWords: new Int32Array(squares.buffer) });
+    Object.assign(this, { vertices, corners, offsets });
   }
 
   /** Begins the ring `steps` later, less than the valence. */
