@@ -2,7 +2,9 @@ import { bitWidth, Column, ColumnReader, fromZigzag, lowBits } from "./columns.j
 import { crc32c } from "./crc32c.js";
 import { CorruptError } from "./errors.js";
 import { codesOf, Encoding, largestCoordinate, type Codes, type Grid } from "./grid.js";
-import { Kind, type ProgressiveMesh } from "./mesh.js";
+import { Guess, height } from "./guess.js";
+import { LookAhead } from "./look_ahead.js";
+import { Kind, next, prev, type ProgressiveMesh } from "./mesh.js";
 import { Star } from "./star.js";
 
 /** A `vsplit.v1.RecordBlock`. */
@@ -27,17 +29,32 @@ const isMean = 255;
 /** Decodes blocks onto a mesh, one after the other: the counterpart of core's RecordCodec. */
 export class RecordDecoder {
   private readonly codes: Codes | undefined;
-  private readonly star = new Star();
-  private readonly besideList = new Uint32Array(beside);
-  private besideCount = 0;
-  private lastMoved = -1;
+  private readonly guess = new Guess();
+  private readonly lookAhead = new LookAhead();
   private columns!: ColumnReader;
-  private inRange = true;
   /** Layout 1: points that are the mean of their ring say only that, and places have two columns. */
   private knowsMeans = false;
+  /** Of the splits of a block: vertices, or ~n for the n-th beside the record before. */
+  private places = new Int32Array(1024);
+  private placesRead = 0;
+  private placesTaken = 0;
+
+  /** What is beside the record before: some vertices, then so many of the ring of the last split. */
+  private readonly besideFirst = new Int32Array(4);
+  private besideFirstCount = 0;
+  private besideRingCount = 0;
+  private readonly splitStar = new Star();
+  private readonly moveStar = new Star();
+  private lastMoved = -1;
+
+  // Of the point that is read: scales of its columns, what is expected of it, what is read.
+  private readonly scales = new Int32Array(4);
+  private readonly guessed = new Float64Array(4);
+  private readonly expected = new Float64Array(3);
+  private readonly mean = new Float64Array(3);
   private readonly point = new Float64Array(3);
-  private readonly centre = new Float64Array(3);
-  private readonly guess = new Float64Array(3);
+  /** Of a split or move, as ProgressiveMesh takes them. */
+  private readonly points = new Float64Array(6);
 
   constructor(readonly grid: Grid) {
     this.codes = grid.encoding === Encoding.Float64 ? undefined : codesOf(grid);
@@ -78,11 +95,12 @@ export class RecordDecoder {
     const kinds = columns.take(Column.Kinds);
     if (kinds.length !== block.count) throw new CorruptError(`${kinds.length} kinds of records for a count of ${block.count}`);
     let splits = 0;
-    for (const kind of kinds) splits += kind === Kind.Split ? 1 : 0;
+    for (let n = 0; n < kinds.length; ++n) splits += kinds[n] === Kind.Split ? 1 : 0;
     mesh.reserve(splits, kinds.length - splits);
-    this.besideCount = 0;
+    this.readPlaces(splits, mesh.vertexCount);
+    this.besideFirstCount = 0;
+    this.besideRingCount = 0;
     this.lastMoved = -1;
-    this.inRange = true;
     for (let n = 0; n < kinds.length; ++n) {
       const kind = kinds[n]!;
       if (kind === Kind.Split) this.split(mesh);
@@ -94,24 +112,102 @@ export class RecordDecoder {
     if (!columns.allRead()) throw new CorruptError("something is left over behind the last record");
   }
 
-  private place(mesh: ProgressiveMesh): number {
-    const odd = this.knowsMeans && bitWidth(mesh.vertexCount) % 2 === 1;
-    const symbol = this.columns.byte(odd ? Column.OddPlace : Column.Place);
-    if (symbol >= beside) {
-      if (symbol - beside >= this.besideCount) throw new CorruptError("a vertex that is not there");
-      return this.besideList[symbol - beside]!;
+  /** All at once, so that the mesh around those that come can be looked at ahead. */
+  private readPlaces(splits: number, vertices: number): void {
+    const { columns, knowsMeans } = this;
+    if (splits > this.places.length) this.places = new Int32Array(splits);
+    const { places } = this;
+    for (let n = 0; n < splits; ++n) {
+      const odd = knowsMeans && bitWidth(vertices + n) % 2 === 1;
+      const symbol = columns.byte(odd ? Column.OddPlace : Column.Place), low = lowBits(vertices + n);
+      places[n] = symbol >= beside ? ~(symbol - beside) : (symbol << low) | columns.placeBits(low);
     }
-    const low = lowBits(mesh.vertexCount);
-    const vertex = ((symbol << low) | this.columns.placeBits(low)) >>> 0;
-    if (vertex >= mesh.vertexCount) throw new CorruptError("a vertex that is not there");
+    if (columns.short) throw new CorruptError(`the columns of places are too short for ${splits} splits`);
+    this.placesRead = splits;
+    this.placesTaken = 0;
+    this.lookAhead.begin();
+  }
+
+  /** Gathers the star of the next split's vertex. */
+  private nextStar(mesh: ProgressiveMesh): number {
+    const { places, placesRead } = this;
+    const n = this.placesTaken++;
+    this.lookAhead.reach(n, mesh, places, placesRead);
+    const place = places[n]! | 0;
+    const corner = place < 0 ? this.cornerBeside(~place, mesh) : place < mesh.vertexCount ? mesh.cornerOf[place]! | 0 : -1;
+    if (corner < 0) throw new CorruptError("a vertex that is not there");
+    const vertex = place < 0 ? mesh.vertexAt(corner) : place;
+    this.splitStar.gather(mesh, vertex, corner);
     return vertex;
   }
 
+  /** A corner at the n-th vertex beside the record before; -1 where there are not so many. */
+  private cornerBeside(n: number, mesh: ProgressiveMesh): number {
+    if (n < this.besideFirstCount) return mesh.cornerOf[this.besideFirst[n]!]!;
+    const inRing = n - this.besideFirstCount;
+    return inRing < this.besideRingCount ? next(this.splitStar.corner(inRing)) : -1;
+  }
+
   private split(mesh: ProgressiveMesh): void {
-    const { star, columns } = this;
-    const vertex = this.place(mesh);
-    star.gather(mesh, vertex);
-    const valence = star.valence;
+    const { splitStar: star, guess, points, besideFirst } = this;
+    const vertex = this.nextStar(mesh);
+    const steps = this.fan(star);
+    star.lie(steps);
+    this.codes!.scales(star, this.scales);
+    guess.begin(star, steps);
+    this.readPoints(star);
+    besideFirst[0] = vertex;
+    besideFirst[1] = mesh.vertexCount;
+    mesh.split(star.corner(0), steps, points);
+    this.besideFirstCount = 2;
+    this.besideRingCount = Math.min(star.valence, beside - 2);
+    this.lastMoved = -1;
+  }
+
+  /** Of a split, into `points`. Where the new vertex is the mean of its ring, the old one comes first. */
+  private readPoints(star: Star): void {
+    const { guess, guessed, points } = this;
+    guess.forAdded(guessed);
+    const addedIsMean = this.isMeanNext(star);
+    if (!addedIsMean) {
+      this.readPoint(star, Column.Along, Column.Across, 3);
+      guess.addedIs(star, points);
+      if (this.isMeanNext(star)) {
+        guess.meanAroundKept(this.mean, star, points);
+        return this.readNearMean(star, 0);
+      }
+    }
+    guess.forKept(guessed);
+    this.readPoint(star, Column.Along, Column.Across, 0);
+    if (!addedIsMean) return;
+    guess.meanAroundAdded(this.mean, star, points);
+    this.readNearMean(star, 3);
+  }
+
+  /** Whether a point is the mean of its ring, but for what column Mean says: this is written in place of its first number. */
+  private isMeanNext({ across }: Star): boolean {
+    return this.knowsMeans && this.columns.skip(Column.Along + this.scales[across === 2 ? 0 : across + 1]!, isMean);
+  }
+
+  /** At most a step of the grid from the mean in each direction, into `points` from `to` on. */
+  private readNearMean({ centre }: Star, to: number): void {
+    const { codes, mean, points } = this;
+    const off = this.columns.byte(Column.Mean);
+    if (off >= 27) throw new CorruptError("a position that is not on the grid");
+    for (let axis = 0, rest = off; axis < 3; ++axis) {
+      const unit = axis === 0 ? 9 : axis === 1 ? 3 : 1;
+      const steps = Math.trunc(rest / unit);
+      rest -= steps * unit;
+      const value = codes!.decode(centre[axis]! + mean[axis]!, steps - 1, axis);
+      if (value !== value) throw new CorruptError("a position that is not on the grid");
+      points[to + axis] = value;
+    }
+  }
+
+  /** How many faces go over; the star is turned to the first of them. */
+  private fan(star: Star): number {
+    const { columns } = this;
+    const { valence } = star;
     let turn: number;
     let more: number;
     if (valence >= 3 && valence <= mostCodedFan) {
@@ -124,151 +220,62 @@ export class RecordDecoder {
     }
     if (turn >= valence || more + 1 >= valence) throw new CorruptError("a fan that is none of the vertex");
     star.turn(turn);
-    const steps = more + 1;
-    const anchor = star.corner[star.first]!;
-
-    star.lie();
-    const { x, y, z, hasPlane } = star;
-    let fx = 0, fy = 0, fz = 0, rx = 0, ry = 0, rz = 0;
-    for (let n = 0; n <= steps; ++n) {
-      fx += x[n]!;
-      fy += y[n]!;
-      fz += z[n]!;
-    }
-    const ex = (x[0]! + x[steps]!) * 0.5, ey = (y[0]! + y[steps]!) * 0.5, ez = (z[0]! + z[steps]!) * 0.5;
-    for (let n = steps; n <= valence; ++n) {
-      rx += x[n]!;
-      ry += y[n]!;
-      rz += z[n]!;
-    }
-    const inFan = steps + 1, inRest = valence - steps + 1;
-    fx /= inFan;
-    fy /= inFan;
-    fz /= inFan;
-    rx /= inRest;
-    ry /= inRest;
-    rz /= inRest;
-    const fanHeight = hasPlane ? star.height(fx, fy, fz) : 0;
-    const restHeight = hasPlane ? star.height(rx, ry, rz) : 0;
-    const endsHeight = hasPlane ? star.height(ex, ey, ez) : 0;
-    const { guess, point } = this;
-    guess[0] = 0.5 * fx - 0.2 * rx + 0.15 * ex;
-    guess[1] = 0.5 * fy - 0.2 * ry + 0.15 * ey;
-    guess[2] = 0.5 * fz - 0.2 * rz + 0.15 * ez;
-    // Of the new vertex, as far as it is known; where it is the mean of its ring the other one comes first.
-    let ax = guess[0]!, ay = guess[1]!, az = guess[2]!, addedHeight = 0.35 * fanHeight - 0.15 * restHeight + 0.1 * endsHeight;
-    const addedIsMean = this.skipMean();
-    if (!addedIsMean) {
-      this.codePoint(addedHeight, Column.Along, Column.Across);
-      ax = point[0]! - star.cx;
-      ay = point[1]! - star.cy;
-      az = point[2]! - star.cz;
-      addedHeight = hasPlane ? star.height(ax, ay, az) : 0;
-    }
-    let px = point[0]!, py = point[1]!, pz = point[2]!;
-    if (!addedIsMean && this.skipMean()) {
-      this.codeMean((rx * inRest + ax) / (inRest + 1), (ry * inRest + ay) / (inRest + 1), (rz * inRest + az) / (inRest + 1));
-    } else {
-      guess[0] = 0.55 * rx - 0.4 * fx + 0.1 * ex + 0.4 * ax;
-      guess[1] = 0.55 * ry - 0.4 * fy + 0.1 * ey + 0.4 * ay;
-      guess[2] = 0.55 * rz - 0.4 * fz + 0.1 * ez + 0.4 * az;
-      this.codePoint(0.5 * restHeight - 0.35 * fanHeight + 0.05 * endsHeight + 0.4 * addedHeight, Column.Along, Column.Across);
-    }
-    const kx = point[0]!, ky = point[1]!, kz = point[2]!;
-    if (addedIsMean) {
-      ax = kx - star.cx;
-      ay = ky - star.cy;
-      az = kz - star.cz;
-      this.codeMean((fx * inFan + ax) / (inFan + 1), (fy * inFan + ay) / (inFan + 1), (fz * inFan + az) / (inFan + 1));
-      px = point[0]!;
-      py = point[1]!;
-      pz = point[2]!;
-    }
-    if (!this.inRange) throw new CorruptError("a position that is not on the grid");
-    const added = mesh.vertexCount;
-    mesh.split(anchor, steps, kx, ky, kz, px, py, pz);
-    this.noteBeside(vertex, added);
-    this.lastMoved = -1;
-  }
-
-  private noteBeside(vertex: number, added: number): void {
-    const { besideList, star } = this;
-    besideList[0] = vertex;
-    besideList[1] = added;
-    const most = Math.min(star.valence, beside - 2);
-    for (let n = 0, at = star.first; n < most; ++n, at = at + 1 === star.valence ? 0 : at + 1) besideList[n + 2] = star.vertex[at]!;
-    this.besideCount = most + 2;
+    return more + 1;
   }
 
   private flip(mesh: ProgressiveMesh): void {
+    const { besideFirst } = this;
     const half = this.columns.uniform(Column.Flip, 3 * mesh.faceCount);
-    mesh.flip(half);
-    this.besideCount = 0;
-    for (const side of [half, mesh.twins[half]!]) {
-      this.besideList[this.besideCount++] = mesh.corners[side]!;
-      this.besideList[this.besideCount++] = mesh.corners[side % 3 === 0 ? side + 2 : side - 1]!;
-    }
+    const twin = mesh.flip(half);
+    besideFirst[0] = mesh.vertexAt(half);
+    besideFirst[1] = mesh.vertexAt(prev(half));
+    besideFirst[2] = mesh.vertexAt(twin);
+    besideFirst[3] = mesh.vertexAt(prev(twin));
+    this.besideFirstCount = 4;
+    this.besideRingCount = 0;
     this.lastMoved = -1;
   }
 
   private move(mesh: ProgressiveMesh): void {
+    const { moveStar: star, guessed } = this;
     const step = this.columns.number(Column.Moved);
     const vertex = (this.lastMoved + 1 + fromZigzag(step)) >>> 0;
     if (vertex >= mesh.vertexCount) throw new CorruptError("a vertex that is not there");
     this.lastMoved = vertex;
-    this.star.gather(mesh, vertex);
-    this.star.lie();
-    this.guess.fill(0);
-    this.codePoint(0, Column.MoveAlong, Column.MoveAcross);
-    if (!this.inRange) throw new CorruptError("a position that is not on the grid");
-    mesh.move(vertex, this.point[0]!, this.point[1]!, this.point[2]!);
+    star.gather(mesh, vertex, mesh.cornerOf[vertex]!);
+    star.lie(0);
+    this.codes!.scales(star, this.scales);
+    guessed.fill(0);
+    this.readPoint(star, Column.MoveAlong, Column.MoveAcross, 0);
+    mesh.move(vertex, this.points);
   }
 
-  /** Whether a point of a split is the mean of its ring, but for what column Mean says. */
-  private skipMean(): boolean {
-    if (!this.knowsMeans) return false;
-    const { star } = this;
-    const u = star.across === 2 ? 0 : star.across + 1;
-    const centre = u === 0 ? star.cx : u === 1 ? star.cy : star.cz;
-    return this.columns.skip(Column.Along + this.codes!.scale(star.reach[u]!, centre), isMean);
-  }
-
-  /** The offset of the mean from the centre. */
-  private codeMean(dx: number, dy: number, dz: number): void {
-    const { star, point } = this;
-    const codes = this.codes!;
-    const off = this.columns.byte(Column.Mean);
-    point[0] = codes.decode(star.cx + dx, Math.trunc(off / 9) - 1, 0);
-    point[1] = codes.decode(star.cy + dy, (Math.trunc(off / 3) % 3) - 1, 1);
-    point[2] = codes.decode(star.cz + dz, (off % 3) - 1, 2);
-    this.inRange &&= off < 27 && !Number.isNaN(point[0]! + point[1]! + point[2]!);
-  }
-
-  private codePoint(height: number, along: number, across: number): void {
-    const { star, centre, guess, point } = this;
-    const codes = this.codes!;
-    centre[0] = star.cx;
-    centre[1] = star.cy;
-    centre[2] = star.cz;
-    const w = star.across;
+  /** Near where it was guessed, into `points` from `to` on. */
+  private readPoint({ centre, normal, across: w, hasPlane }: Star, along: number, across: number, to: number): void {
+    const { scales, guessed, expected, point, points } = this;
     const u = w === 2 ? 0 : w + 1;
     const v = u === 2 ? 0 : u + 1;
-    this.put(along + codes.scale(star.reach[u]!, centre[u]!), centre[u]! + guess[u]!, u);
-    this.put(along + codes.scale(star.reach[v]!, centre[v]!), centre[v]! + guess[v]!, v);
-    if (!star.hasPlane) {
-      this.put(along + codes.scale(star.reach[w]!, centre[w]!), centre[w]! + guess[w]!, w);
-      return;
+    expected[u] = centre[u]! + guessed[u]!;
+    expected[v] = centre[v]! + guessed[v]!;
+    this.readCoordinate(along + scales[u]!, u);
+    this.readCoordinate(along + scales[v]!, v);
+    if (hasPlane) {
+      const slope = (normal[u]! * (point[u]! - centre[u]!) + normal[v]! * (point[v]! - centre[v]!)) / normal[w]!;
+      expected[w] = centre[w]! - slope + guessed[height]!;
+      this.readCoordinate(across + scales[3]!, w);
+    } else {
+      expected[w] = centre[w]! + guessed[w]!;
+      this.readCoordinate(along + scales[w]!, w);
     }
-    const { normal } = star;
-    const slope = (normal[u]! * (point[u]! - centre[u]!) + normal[v]! * (point[v]! - centre[v]!)) / normal[w]!;
-    this.put(across + codes.scale(star.thickness, centre[w]!), centre[w]! - slope + height, w);
+    points[to] = point[0]!;
+    points[to + 1] = point[1]!;
+    points[to + 2] = point[2]!;
   }
 
-  private put(column: number, expected: number, axis: number): void {
-    if (!this.inRange) return;
-    const value = this.codes!.decode(expected, fromZigzag(this.columns.number(column)), axis);
+  private readCoordinate(column: number, axis: number): void {
+    const value = this.codes!.decode(this.expected[axis]!, fromZigzag(this.columns.number(column)), axis);
+    if (value !== value) throw new CorruptError("a position that is not on the grid");
     this.point[axis] = value;
-    this.inRange = value === value;
   }
 }
 
@@ -290,16 +297,21 @@ function decodePlain(block: RecordBlock, mesh: ProgressiveMesh): void {
   const view = new DataView(payload.buffer, payload.byteOffset, payload.length);
   let anchor = padded, steps = anchor + 4 * splits, kept = steps + 4 * splits, added = kept + 24 * splits;
   let position = added + 24 * splits, half = position + 24 * moves, vertex = half + 4 * flips;
-  const f64 = (at: number): number => {
-    const value = view.getFloat64(at, true);
-    if (!(Math.abs(value) <= largestCoordinate)) throw new CorruptError("a coordinate is not finite or beyond 1e15");
-    return value;
+  const points = new Float64Array(6);
+  const read = (to: number, at: number): void => {
+    for (let axis = 0; axis < 3; ++axis) {
+      const value = view.getFloat64(at + 8 * axis, true);
+      if (!(Math.abs(value) <= largestCoordinate)) throw new CorruptError("a coordinate is not finite or beyond 1e15");
+      points[to + axis] = value;
+    }
   };
   mesh.reserve(splits, flips + moves);
   for (let n = 0; n < count; ++n) {
     if (payload[n] === Kind.Split) {
       checkFan(mesh, view.getUint32(anchor, true), view.getUint32(steps, true));
-      mesh.split(view.getUint32(anchor, true), view.getUint32(steps, true), f64(kept), f64(kept + 8), f64(kept + 16), f64(added), f64(added + 8), f64(added + 16));
+      read(0, kept);
+      read(3, added);
+      mesh.split(view.getUint32(anchor, true), view.getUint32(steps, true), points);
       anchor += 4;
       steps += 4;
       kept += 24;
@@ -308,7 +320,8 @@ function decodePlain(block: RecordBlock, mesh: ProgressiveMesh): void {
       mesh.flip(view.getUint32(half, true));
       half += 4;
     } else {
-      mesh.move(view.getUint32(vertex, true), f64(position), f64(position + 8), f64(position + 16));
+      read(0, position);
+      mesh.move(view.getUint32(vertex, true), points);
       vertex += 4;
       position += 24;
     }
@@ -320,7 +333,7 @@ function checkFan(mesh: ProgressiveMesh, anchor: number, steps: number): void {
   if (steps === 0) throw new CorruptError("0 steps");
   let corner = anchor;
   for (let n = 0; n < steps; ++n) {
-    corner = mesh.twins[corner % 3 === 0 ? corner + 2 : corner - 1]!;
+    corner = mesh.after(corner);
     if (corner === anchor) throw new CorruptError(`${steps} steps around a vertex of valence ${n + 1}`);
   }
 }

@@ -95,7 +95,7 @@ export class ColumnReader {
       stored[column] = { bytes, compressed, content };
       total += content;
     }
-    this.bytes = new Uint8Array(total);
+    this.bytes = new Room(total);
     let to = 0;
     for (let column = 0; column < Column.Bits; ++column) {
       const from = stored[column];
@@ -179,6 +179,13 @@ interface Stored {
   content: number;
 }
 
+/** fzstd compares the array that it fills with a number, which makes a text of it, number by number: here a short one. */
+class Room extends Uint8Array {
+  override toString(): string {
+    return "";
+  }
+}
+
 function unpack(from: Stored, column: number, to: Uint8Array): void {
   if (!from.compressed) {
     to.set(from.bytes);
@@ -196,7 +203,7 @@ function unpack(from: Stored, column: number, to: Uint8Array): void {
 /** Room for five bytes is behind the last. */
 function bitColumn(from: Stored | undefined, column: number): BitColumn {
   const size = from ? from.content : 0;
-  const bytes = new Uint8Array(size + 5);
+  const bytes = new Room(size + 5);
   if (from) unpack(from, column, bytes.subarray(0, size));
   return new BitColumn(bytes, 8 * size);
 }

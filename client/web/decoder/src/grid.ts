@@ -1,4 +1,5 @@
 import { CorruptError } from "./errors.js";
+import type { Star } from "./star.js";
 
 export const enum Encoding {
   Float64 = 1,
@@ -35,6 +36,9 @@ function exponentField(value: number): number {
   return (f64Words[highWord]! >>> 20) & 0x7ff;
 }
 
+/** How many binary digits a whole number below 2^32 has. */
+const digits = (value: number): number => 32 - Math.clz32(value);
+
 function clampScale(scale: number): number {
   return scale < 0 ? 0 : scale > 31 ? 31 : scale;
 }
@@ -44,6 +48,8 @@ export interface Codes {
   /** The coordinate whose code is `residual` beyond that of `expected`, modulo 2^32; NaN where there is none. */
   decode(expected: number, residual: number, axis: number): number;
   scale(length: number, at: number): number;
+  /** Fills in the scales of a star that lies: of its reach along x, y and z, and of its thickness. */
+  scales(star: Star, to: Int32Array): void;
 }
 
 class Float32Codes implements Codes {
@@ -58,6 +64,21 @@ class Float32Codes implements Codes {
   scale(length: number, at: number): number {
     if (length === 0) return 0;
     return clampScale(exponentField(length) - exponentField(at) + 24);
+  }
+  scales({ valence, offsets, normal, across, hasPlane, centre }: Star, to: Int32Array): void {
+    const n0 = normal[0]!, n1 = normal[1]!, n2 = normal[2]!;
+    let rx = 0, ry = 0, rz = 0, thickness = 0;
+    for (let at = 0; at < 3 * valence; at += 3) {
+      const x = offsets[at]!, y = offsets[at + 1]!, z = offsets[at + 2]!;
+      rx = Math.max(rx, Math.abs(x));
+      ry = Math.max(ry, Math.abs(y));
+      rz = Math.max(rz, Math.abs(z));
+      thickness = Math.max(thickness, Math.abs(n0 * x + n1 * y + n2 * z));
+    }
+    to[0] = this.scale(rx, centre[0]!);
+    to[1] = this.scale(ry, centre[1]!);
+    to[2] = this.scale(rz, centre[2]!);
+    to[3] = hasPlane ? this.scale(thickness / Math.abs(normal[across]!), centre[across]!) : 0;
   }
 }
 
@@ -81,8 +102,29 @@ class QuantisedCodes implements Codes {
     return code >= 0 && code <= most ? origin + code * this.step : NaN;
   }
   scale(length: number, _at: number): number {
+    return digits(this.steps(length));
+  }
+  /** Nobody can foresee which neighbour is the farthest, but the largest of some numbers has as many digits as all of them joined by `or`. */
+  scales({ valence, offsets, normal, across, hasPlane }: Star, to: Int32Array): void {
+    const n0 = normal[0]!, n1 = normal[1]!, n2 = normal[2]!;
+    const steep = hasPlane ? Math.abs(normal[across]!) : 1;
+    let rx = 0, ry = 0, rz = 0, thickness = 0;
+    for (let at = 0; at < 3 * valence; at += 3) {
+      const x = offsets[at]!, y = offsets[at + 1]!, z = offsets[at + 2]!;
+      rx |= this.steps(Math.abs(x));
+      ry |= this.steps(Math.abs(y));
+      rz |= this.steps(Math.abs(z));
+      thickness |= this.steps(Math.abs(n0 * x + n1 * y + n2 * z) / steep);
+    }
+    to[0] = digits(rx);
+    to[1] = digits(ry);
+    to[2] = digits(rz);
+    to[3] = digits(thickness);
+  }
+  /** How many whole steps a length has, 2^31 - 1 at most. */
+  private steps(length: number): number {
     const steps = length * this.perUnit;
-    return steps < 2147483648 ? 32 - Math.clz32(steps) : 31;
+    return steps < 2147483647 ? steps | 0 : 2147483647;
   }
 }
 

@@ -2,13 +2,14 @@ import { CorruptError } from "./errors.js";
 import { largestCoordinate } from "./grid.js";
 import { UndoneRecords } from "./undone.js";
 
-const none = 0xffffffff;
+const none = -1;
 
-// `| 0` here and where corners are read keeps the numbers of a mesh whole numbers of 32 bits for the compiler; they stay below 2^31.
-export const next = (h: number): number => (h % 3 === 2 ? (h - 2) | 0 : (h + 1) | 0);
-export const prev = (h: number): number => (h % 3 === 0 ? (h + 2) | 0 : (h - 1) | 0);
+// Nobody can foresee where in its face a corner is, so this is computed, not branched to. `| 0` here and where numbers of a mesh are
+// read tells the compiler that they are whole and below 2^31.
+export const next = (corner: number): number => (corner + 1 - 3 * ((corner % 3) >> 1)) | 0;
+export const prev = (corner: number): number => (corner - 1 + (3 & (((corner % 3) - 1) >> 31))) | 0;
 
-function grown<T extends Uint32Array | Float64Array | Uint8Array>(array: T, needed: number): T {
+function grown<T extends Uint32Array | Int32Array | Float64Array | Uint8Array>(array: T, needed: number): T {
   if (needed <= array.length) return array;
   const larger = new (array.constructor as new (size: number) => T)(Math.max(needed, 2 * array.length));
   larger.set(array as never);
@@ -29,12 +30,15 @@ export const enum Kind {
 export class ProgressiveMesh {
   vertexCount: number;
   faceCount: number;
-  /** Vertex of each corner. */
-  corners: Uint32Array;
   /** x, y and z of each vertex. */
   positions: Float64Array;
-  twins: Uint32Array;
-  cornerOf: Uint32Array;
+  /**
+   * For walks around a vertex, two numbers a corner, side by side because memory is what such a walk waits for: the vertex before it
+   * in its face, and the corner at its own vertex in the next face counter-clockwise, the one on the other side of the edge to that.
+   */
+  around: Int32Array;
+  /** A corner at each vertex. */
+  cornerOf: Int32Array;
   level = 0;
   /** Records applied. */
   records = 0;
@@ -54,15 +58,14 @@ export class ProgressiveMesh {
     this.vertexCount = positions.length / 3;
     this.faceCount = corners.length / 3;
     this.positions = positions;
-    this.corners = corners;
-    this.twins = new Uint32Array(corners.length);
-    this.cornerOf = new Uint32Array(this.vertexCount).fill(none);
-    this.check();
-    this.pair();
+    this.around = new Int32Array(2 * corners.length);
+    this.cornerOf = new Int32Array(this.vertexCount).fill(none);
+    this.check(corners);
+    this.pair(corners);
   }
 
-  private check(): void {
-    for (const v of this.corners) {
+  private check(corners: Uint32Array): void {
+    for (const v of corners) {
       if (v >= this.vertexCount) throw new CorruptError(`base mesh: vertex ${v} of ${this.vertexCount}`);
     }
     for (let n = 0; n < this.positions.length; ++n) {
@@ -70,49 +73,104 @@ export class ProgressiveMesh {
     }
   }
 
-  private pair(): void {
+  private pair(corners: Uint32Array): void {
     const open = new Map<number, number>();
-    for (let h = 0; h < this.corners.length; ++h) {
-      const from = this.corners[h]!;
-      const key = from * this.vertexCount + this.corners[next(h)]!;
+    for (let h = 0; h < corners.length; ++h) {
+      const from = corners[h]!;
+      const key = from * this.vertexCount + corners[next(h)]!;
       if (open.has(key)) throw new CorruptError("base mesh: two faces run along an edge the same way");
       open.set(key, h);
+      this.seat(h, from);
       this.cornerOf[from] = h;
     }
-    for (let h = 0; h < this.corners.length; ++h) {
-      const twin = open.get(this.corners[next(h)]! * this.vertexCount + this.corners[h]!);
+    for (let h = 0; h < corners.length; ++h) {
+      const twin = open.get(corners[next(h)]! * this.vertexCount + corners[h]!);
       if (twin === undefined) throw new CorruptError("base mesh: it is not closed");
-      this.twins[h] = twin;
+      this.around[2 * next(h) + 1] = twin;
     }
-    this.checkFans();
+    this.checkFans(corners);
   }
 
   /** Every vertex has one fan of faces. */
-  private checkFans(): void {
+  private checkFans(corners: Uint32Array): void {
     const faces = new Uint32Array(this.vertexCount);
-    for (const v of this.corners) ++faces[v]!;
+    for (const v of corners) ++faces[v]!;
     for (let v = 0; v < this.vertexCount; ++v) {
       const start = this.cornerOf[v]!;
       if (start === none) throw new CorruptError(`base mesh: vertex ${v} has no face`);
       let turned = 0;
       let h = start;
       do {
-        h = this.twins[prev(h)]!;
+        h = this.after(h);
         ++turned;
       } while (h !== start);
       if (turned !== faces[v]) throw new CorruptError(`base mesh: vertex ${v} joins several fans of faces`);
     }
   }
 
+  /** The vertex at a corner. */
+  vertexAt(corner: number): number {
+    return this.before(next(corner));
+  }
+
+  /** The vertices at all corners, as a new array. */
+  corners(): Uint32Array {
+    const all = new Uint32Array(3 * this.faceCount);
+    for (let corner = 0; corner < all.length; ++corner) all[corner] = this.vertexAt(corner);
+    return all;
+  }
+
+  /** The corner at the same vertex in the next face counter-clockwise. */
+  after(corner: number): number {
+    return this.around[2 * corner + 1]! | 0;
+  }
+
+  private before(corner: number): number {
+    return this.around[2 * corner]! | 0;
+  }
+
+  private twin(h: number): number {
+    return this.around[2 * next(h) + 1]! | 0;
+  }
+
+  /** `vertex` is at a corner now. */
+  private seat(corner: number, vertex: number): void {
+    this.around[2 * next(corner)] = vertex;
+  }
+
+  /** A face's vertices and, after each, the corner at it in the next face counter-clockwise. */
+  private putFace(first: number, a: number, afterA: number, b: number, afterB: number, c: number, afterC: number): void {
+    const { around } = this;
+    const at = (2 * first) | 0;
+    around[at] = c;
+    around[at + 1] = afterA;
+    around[at + 2] = a;
+    around[at + 3] = afterB;
+    around[at + 4] = b;
+    around[at + 5] = afterC;
+  }
+
+  /** Two half-edges are each other's twins now. */
+  private join(h: number, g: number): void {
+    this.around[2 * next(h) + 1] = g;
+    this.around[2 * next(g) + 1] = h;
+  }
+
   /** Makes room for more records at once. */
   reserve(splits: number, edits: number): void {
     this.positions = grown(this.positions, 3 * (this.vertexCount + splits));
     this.cornerOf = grown(this.cornerOf, this.vertexCount + splits);
-    this.corners = grown(this.corners, 3 * this.faceCount + 6 * splits);
-    this.twins = grown(this.twins, 3 * this.faceCount + 6 * splits);
+    this.around = grown(this.around, 6 * this.faceCount + 12 * splits);
     this.applied = grown(this.applied, this.records + splits + edits);
     this.edited = grown(this.edited, this.editedCount + edits);
     this.lay = grown(this.lay, 3 * (this.layCount + splits + edits));
+  }
+
+  private place(v: number, places: Float64Array, from: number): void {
+    const to = 3 * v;
+    this.positions[to] = places[from]!;
+    this.positions[to + 1] = places[from + 1]!;
+    this.positions[to + 2] = places[from + 2]!;
   }
 
   private remember(v: number): void {
@@ -130,53 +188,32 @@ export class ProgressiveMesh {
     this.positions[3 * v + 2] = this.lay[from + 2]!;
   }
 
-  /** `steps` must be from 1 to the valence less 1. Room must have been made. */
-  split(anchor: number, steps: number, kx: number, ky: number, kz: number, ax: number, ay: number, az: number): void {
-    const { corners, twins, positions, ghosts } = this;
-    const v = corners[anchor]! | 0;
-    const b = corners[next(anchor)]! | 0;
-    const w = this.vertexCount | 0;
-    let fanEnd = anchor;
-    let after = anchor | 0;
-    for (let n = 0; n < steps; ++n) {
-      corners[after] = w;
-      fanEnd = prev(after);
-      after = twins[fanEnd]! | 0;
-    }
-    const e = corners[fanEnd]! | 0;
-    if (ghosts > 0 && (v < ghosts || (b < ghosts && e < ghosts))) {
-      for (let n = 0, corner = anchor; n < steps; ++n, corner = twins[prev(corner)]!) corners[corner] = v;
-      throw new CorruptError("a split at or between ghosts");
-    }
-    this.vertexCount = w + 1;
-    const before = twins[anchor]! | 0;
-    const first = 3 * this.faceCount;
-    this.faceCount += 2;
-    corners[first] = v;
-    corners[first + 1] = w;
-    corners[first + 2] = e;
-    corners[first + 3] = w;
-    corners[first + 4] = v;
-    corners[first + 5] = b;
-    twins[first] = first + 3;
-    twins[first + 1] = fanEnd;
-    twins[first + 2] = after;
-    twins[first + 3] = first;
-    twins[first + 4] = before;
-    twins[first + 5] = anchor;
-    twins[fanEnd] = first + 1;
-    twins[after] = first + 2;
-    twins[before] = first + 4;
-    twins[anchor] = first + 5;
+  /**
+   * `steps` must be from 1 to the valence less 1; `places`: where the vertex that is split lies afterwards, then the new one, six
+   * numbers. Room must have been made.
+   */
+  split(anchor: number, steps: number, places: Float64Array): void {
+    const { around } = this;
+    const v = this.vertexAt(anchor), b = this.before(prev(anchor)), w = this.vertexCount | 0;
+    let last = anchor | 0;
+    for (let n = 1; n < steps; ++n) last = this.after(last);
+    const e = this.before(last), after = this.after(last), behind = this.twin(anchor);
+    if (v < this.ghosts || (b < this.ghosts && e < this.ghosts)) throw new CorruptError("a split at or between ghosts");
+    for (let n = 0, corner = anchor | 0; n < steps; ++n, corner = this.after(corner)) around[2 * next(corner)] = w;
+    const first = (3 * this.faceCount) | 0;
+    around[2 * last + 1] = first + 1;
+    around[2 * next(after) + 1] = first + 2;
+    around[2 * next(behind) + 1] = first + 4;
+    around[2 * next(anchor) + 1] = first + 5;
+    this.putFace(first, v, after, w, first + 3, e, prev(last));
+    this.putFace(first + 3, w, anchor, v, first, b, behind);
     this.cornerOf[v] = first;
     this.cornerOf[w] = first + 1;
+    this.vertexCount = w + 1;
+    this.faceCount += 2;
     this.remember(v);
-    positions[3 * v] = kx;
-    positions[3 * v + 1] = ky;
-    positions[3 * v + 2] = kz;
-    positions[3 * w] = ax;
-    positions[3 * w + 1] = ay;
-    positions[3 * w + 2] = az;
+    this.place(v, places, 0);
+    this.place(w, places, 3);
     ++this.level;
     this.applied[this.records++] = Kind.Split;
     if (this.touched) {
@@ -185,43 +222,40 @@ export class ProgressiveMesh {
   }
 
   private undoSplit(keep: boolean): void {
-    const { corners, twins } = this;
+    const { positions } = this;
     const first = 3 * this.faceCount - 6;
-    const v = corners[first]!;
-    const fanEnd = twins[first + 1]!;
-    const after = twins[first + 2]!;
-    const before = twins[first + 4]!;
-    const fanBegin = twins[first + 5]!;
+    const v = this.vertexAt(first);
+    const fanEnd = this.twin(first + 1), after = this.twin(first + 2), behind = this.twin(first + 4), anchor = this.twin(first + 5);
     let steps = 1;
-    for (let corner = fanBegin; ; corner = twins[prev(corner)]!, ++steps) {
-      corners[corner] = v;
+    for (let corner = anchor; ; corner = this.after(corner), ++steps) {
+      this.seat(corner, v);
       if (prev(corner) === fanEnd) break;
     }
     if (keep) {
-      const p = this.positions, k = 3 * v, a = 3 * (this.vertexCount - 1);
-      this.undone.push(Kind.Split, fanBegin, steps, p[k]!, p[k + 1]!, p[k + 2]!, p[a]!, p[a + 1]!, p[a + 2]!);
+      this.undone.push(Kind.Split, anchor, steps);
+      this.undone.keepPlace(0, positions, v);
+      this.undone.keepPlace(1, positions, this.vertexCount - 1);
     }
-    twins[fanEnd] = after;
-    twins[after] = fanEnd;
-    twins[before] = fanBegin;
-    twins[fanBegin] = before;
+    this.join(fanEnd, after);
+    this.join(behind, anchor);
     this.faceCount -= 2;
     --this.vertexCount;
     // A flip may have left one of the others with a corner of the faces that go.
-    this.cornerOf[v] = fanBegin;
-    this.cornerOf[corners[fanEnd]!] = fanEnd;
-    this.cornerOf[corners[before]!] = before;
+    const e = this.vertexAt(fanEnd), b = this.vertexAt(behind);
+    this.cornerOf[v] = anchor;
+    this.cornerOf[e] = fanEnd;
+    this.cornerOf[b] = behind;
     this.restore(v);
     --this.level;
     if (this.touched) {
-      for (const vertex of [v, corners[fanEnd]!, corners[before]!]) this.touched(vertex);
+      for (const vertex of [v, e, b]) this.touched(vertex);
     }
   }
 
   private valenceIsUnder4(corner: number): boolean {
     let at = corner;
     for (let n = 1; n < 4; ++n) {
-      at = this.twins[prev(at)]!;
+      at = this.after(at);
       if (at === corner) return true;
     }
     return false;
@@ -230,91 +264,91 @@ export class ProgressiveMesh {
   private areJoined(corner: number, to: number): boolean {
     let at = corner;
     do {
-      if (this.corners[next(at)] === to) return true;
-      at = this.twins[prev(at)]!;
+      if (this.before(at) === to) return true;
+      at = this.after(at);
     } while (at !== corner);
     return false;
   }
 
-  /** Turns an edge clockwise. Room must have been made. */
-  flip(h: number): void {
+  /** Turns an edge clockwise; returns the half-edge's twin. Room must have been made. */
+  flip(h: number): number {
     if (h >= 3 * this.faceCount) throw new CorruptError(`${h} is no half-edge`);
-    const g = this.twins[h]!;
+    const g = this.twin(h);
     for (const corner of [h, prev(h), g, prev(g)]) {
-      if (this.corners[corner]! < this.ghosts) throw new CorruptError("a flip beside a ghost");
+      if (this.vertexAt(corner) < this.ghosts) throw new CorruptError("a flip beside a ghost");
     }
     if (this.valenceIsUnder4(h) || this.valenceIsUnder4(g)) throw new CorruptError("a flip at a valence under 4");
-    if (this.areJoined(prev(h), this.corners[prev(g)]!)) throw new CorruptError("a flip to an edge that is there");
+    if (this.areJoined(prev(h), this.vertexAt(prev(g)))) throw new CorruptError("a flip to an edge that is there");
     this.turn(h, true);
     this.touchQuad(h);
     this.edited[this.editedCount++] = h;
     this.applied[this.records++] = Kind.Flip;
+    return g;
   }
 
   private touchQuad(h: number): void {
     if (!this.touched) return;
-    for (const corner of [h, prev(h), this.twins[h]!, prev(this.twins[h]!)]) this.touched(this.corners[corner]!);
+    for (const corner of [h, prev(h), this.twin(h), prev(this.twin(h))]) this.touched(this.vertexAt(corner));
   }
 
   private turn(h: number, clockwise: boolean): void {
-    const { corners, twins } = this;
-    const g = twins[h]!;
+    const g = this.twin(h);
     const h1 = next(h), h2 = prev(h), g1 = next(g), g2 = prev(g);
-    const a = corners[h]!, b = corners[g]!, c = corners[h2]!, d = corners[g2]!;
-    const t1 = twins[h1]!, t2 = twins[h2]!, u1 = twins[g1]!, u2 = twins[g2]!;
-    const put = (i: number, v: number, twin: number): void => {
-      corners[i] = v;
-      twins[i] = twin;
-      twins[twin] = i;
-      this.cornerOf[v] = i;
+    const a = this.vertexAt(h), b = this.vertexAt(g), c = this.vertexAt(h2), d = this.vertexAt(g2);
+    const t1 = this.twin(h1), t2 = this.twin(h2), u1 = this.twin(g1), u2 = this.twin(g2);
+    const put = (corner: number, vertex: number): void => {
+      this.seat(corner, vertex);
+      this.cornerOf[vertex] = corner;
     };
     if (clockwise) {
-      put(h1, d, u2);
-      put(h2, b, t1);
-      put(g1, c, t2);
-      put(g2, a, u1);
-      corners[h] = c;
-      corners[g] = d;
-      this.cornerOf[c] = h;
-      this.cornerOf[d] = g;
+      put(h1, d);
+      put(h2, b);
+      put(g1, c);
+      put(g2, a);
+      put(h, c);
+      put(g, d);
+      this.join(h1, u2);
+      this.join(h2, t1);
+      this.join(g1, t2);
+      this.join(g2, u1);
     } else {
-      put(h1, c, t2);
-      put(h2, a, u1);
-      put(g1, d, u2);
-      put(g2, b, t1);
-      corners[h] = d;
-      corners[g] = c;
-      this.cornerOf[d] = h;
-      this.cornerOf[c] = g;
+      put(h1, c);
+      put(h2, a);
+      put(g1, d);
+      put(g2, b);
+      put(h, d);
+      put(g, c);
+      this.join(h1, t2);
+      this.join(h2, u1);
+      this.join(g1, u2);
+      this.join(g2, t1);
     }
   }
 
-  /** Room must have been made. */
-  move(v: number, x: number, y: number, z: number): void {
+  /** `place`: three numbers. Room must have been made. */
+  move(v: number, place: Float64Array): void {
     if (v >= this.vertexCount || v < this.ghosts) throw new CorruptError(`a move of vertex ${v}`);
     this.remember(v);
-    this.positions[3 * v] = x;
-    this.positions[3 * v + 1] = y;
-    this.positions[3 * v + 2] = z;
+    this.place(v, place, 0);
     this.edited[this.editedCount++] = v;
     this.applied[this.records++] = Kind.Move;
     this.touched?.(v);
   }
 
   private undoLast(keep: boolean): void {
+    const { undone } = this;
     const kind = this.applied[--this.records]!;
     if (kind === Kind.Split) {
       this.undoSplit(keep);
       return;
     }
     const edited = this.edited[--this.editedCount]!;
+    if (keep) undone.push(kind, edited, 0);
     if (kind === Kind.Flip) {
-      if (keep) this.undone.push(kind, edited, 0, 0, 0, 0);
       this.turn(edited, false);
       this.touchQuad(edited);
     } else {
-      const p = this.positions, at = 3 * edited;
-      if (keep) this.undone.push(kind, edited, 0, p[at]!, p[at + 1]!, p[at + 2]!);
+      if (keep) undone.keepPlace(0, this.positions, edited);
       this.restore(edited);
       this.touched?.(edited);
     }
@@ -353,20 +387,19 @@ export class ProgressiveMesh {
   private redo(): void {
     const { undone } = this;
     const kind = undone.kind(), a = undone.number(0), b = undone.number(1);
-    const place = (n: number): number => undone.place(n);
-    if (kind === Kind.Split) this.split(a, b, place(0), place(1), place(2), place(3), place(4), place(5));
+    if (kind === Kind.Split) this.split(a, b, undone.places());
     else if (kind === Kind.Flip) this.flip(a);
-    else this.move(a, place(0), place(1), place(2));
+    else this.move(a, undone.places());
     undone.pop();
   }
 
   /** The mesh without ghosts, as new arrays. */
   visible(): { positions: Float64Array; indices: Uint32Array } {
     const positions = this.positions.slice(3 * this.ghosts, 3 * this.vertexCount);
-    if (this.ghosts === 0) return { positions, indices: this.corners.slice(0, 3 * this.faceCount) };
+    if (this.ghosts === 0) return { positions, indices: this.corners() };
     const indices: number[] = [];
     for (let h = 0; h < 3 * this.faceCount; h += 3) {
-      const a = this.corners[h]!, b = this.corners[h + 1]!, c = this.corners[h + 2]!;
+      const a = this.vertexAt(h), b = this.vertexAt(h + 1), c = this.vertexAt(h + 2);
       if (Math.min(a, b, c) >= this.ghosts) indices.push(a - this.ghosts, b - this.ghosts, c - this.ghosts);
     }
     return { positions, indices: Uint32Array.from(indices) };

@@ -7,16 +7,22 @@ export class UndoneRecords {
   count = 0;
   private kinds = new Uint8Array(1024);
   private numbers = new Uint32Array(2 * 1024);
-  private places = new Float64Array(doubles * 1024);
+  private doubles = new Float64Array(doubles * 1024);
+  private readonly last = new Float64Array(doubles);
 
   /** `a` and `b`: anchor and steps of a split, half-edge of a flip, vertex of a move. */
-  push(kind: Kind, a: number, b: number, x: number, y: number, z: number, x2 = 0, y2 = 0, z2 = 0): void {
+  push(kind: Kind, a: number, b: number): void {
     if (this.count === this.kinds.length) this.grow();
     const n = this.count++;
     this.kinds[n] = kind;
     this.numbers[2 * n] = a;
     this.numbers[2 * n + 1] = b;
-    this.places.set([x, y, z, x2, y2, z2], doubles * n);
+  }
+
+  /** Where the record that was pushed last put a vertex; `which`: 0, or 1 for the new one of a split. */
+  keepPlace(which: number, positions: Float64Array, vertex: number): void {
+    const to = doubles * (this.count - 1) + 3 * which;
+    for (let axis = 0; axis < 3; ++axis) this.doubles[to + axis] = positions[3 * vertex + axis]!;
   }
 
   kind(): Kind {
@@ -28,9 +34,11 @@ export class UndoneRecords {
     return this.numbers[2 * (this.count - 1) + which]!;
   }
 
-  /** `which`: 0 to 5. */
-  place(which: number): number {
-    return this.places[doubles * (this.count - 1) + which]!;
+  /** Both places, until it is asked again. */
+  places(): Float64Array {
+    const from = doubles * (this.count - 1);
+    for (let n = 0; n < doubles; ++n) this.last[n] = this.doubles[from + n]!;
+    return this.last;
   }
 
   pop(): void {
@@ -45,8 +53,8 @@ export class UndoneRecords {
     const numbers = new Uint32Array(2 * size);
     numbers.set(this.numbers);
     this.numbers = numbers;
-    const places = new Float64Array(doubles * size);
-    places.set(this.places);
-    this.places = places;
+    const larger = new Float64Array(doubles * size);
+    larger.set(this.doubles);
+    this.doubles = larger;
   }
 }

@@ -22,7 +22,7 @@ const bytesIn = (array: Float64Array | Uint32Array): Uint8Array => new Uint8Arra
 
 function state(mesh: ProgressiveMesh): string {
   const positions = mesh.positions.slice(0, 3 * mesh.vertexCount);
-  const corners = mesh.corners.slice(0, 3 * mesh.faceCount);
+  const corners = mesh.corners();
   return `${mesh.vertexCount} ${mesh.faceCount} ${crc32c(bytesIn(positions))} ${crc32c(bytesIn(corners))}`;
 }
 
@@ -71,7 +71,7 @@ for (const name of names) {
 /** Corners and places of every face, to compare one by one. */
 function faceTexts(mesh: ProgressiveMesh): string[] {
   return Array.from({ length: mesh.faceCount }, (_, f) => {
-    const corners = [...mesh.corners.subarray(3 * f, 3 * f + 3)];
+    const corners = [0, 1, 2].map((c) => mesh.vertexAt(3 * f + c));
     return corners.map((v) => `${v}:${mesh.positions.subarray(3 * v, 3 * v + 3).join()}`).join(" ");
   });
 }
@@ -96,7 +96,7 @@ for (const name of names) {
       assert.equal(base.level, level);
       assert.equal(base.records + base.recordsUndone, records);
       faceTexts(base).forEach((text, f) => {
-        const told = [0, 1, 2].some((c) => touched.has(base.corners[3 * f + c]!));
+        const told = [0, 1, 2].some((c) => touched.has(base.vertexAt(3 * f + c)));
         assert.ok(text === before[f] || told, `face ${f} changed and was not told`);
       });
       const now = level < top ? state(base) : "";
@@ -113,4 +113,37 @@ test("a grid whose step has no reciprocal is refused", () => {
   assert.throws(() => new RecordDecoder(grid(2 ** -1023)), CorruptError);
   assert.throws(() => new RecordDecoder(grid(0)), CorruptError);
   assert.ok(new RecordDecoder(grid(2 ** -1022)));
+});
+
+/** The payload of a block of encoding 2 or 3 without one of its columns. */
+function without(payload: Uint8Array, column: number): Uint8Array {
+  for (let at = 1; at < payload.length; ) {
+    const begin = at;
+    let size = 0, shift = 1, byte = 0x80;
+    for (++at; byte >= 0x80; shift *= 128) size += ((byte = payload[at++]!) & 0x7f) * shift;
+    at += size >> 1;
+    if (payload[begin] === column) return Uint8Array.from([...payload.subarray(0, begin), ...payload.subarray(at)]);
+  }
+  throw new Error(`no column ${column}`);
+}
+
+for (const name of names.filter((name) => !name.includes("float64"))) {
+  test(`${name}: a block without its places is refused before anything changes`, () => {
+    const { base, grid, blocks } = read(name);
+    const before = state(base);
+    const payload = without(blocks[0]!.block.payload, 1);
+    const block = { ...blocks[0]!.block, payload, crc32c: crc32c(payload) };
+    assert.throws(() => new RecordDecoder(grid).decode(block, base), /from record 0 on: the columns of places are too short/);
+    assert.equal(state(base), before);
+  });
+}
+
+test("no text is made of what is decoded", (context) => {
+  const join = context.mock.method(Object.getPrototypeOf(Uint8Array.prototype) as Uint8Array, "join");
+  for (const name of names) {
+    const { base, grid, blocks } = read(name);
+    const decoder = new RecordDecoder(grid);
+    for (const { block } of blocks) decoder.decode(block, base);
+  }
+  assert.equal(join.mock.callCount(), 0);
 });

@@ -66,7 +66,7 @@ export class HeldMesh {
       let corner = start;
       do {
         faces.add(Math.floor(corner / 3));
-        corner = mesh.twins[corner % 3 === 0 ? corner + 2 : corner - 1]!;
+        corner = mesh.after(corner);
       } while (corner !== start);
     }
     this.touched.clear();
@@ -74,9 +74,10 @@ export class HeldMesh {
   }
 
   private lookAtNewFaces(): void {
-    const { corners, ghosts, faceCount } = this.mesh;
+    const { mesh } = this;
+    const { ghosts, faceCount } = mesh;
     for (let f = this.facesLooked; f < faceCount; ++f) {
-      if (Math.min(corners[3 * f]!, corners[3 * f + 1]!, corners[3 * f + 2]!) < ghosts) this.ghostFaces.push(f);
+      if (Math.min(mesh.vertexAt(3 * f), mesh.vertexAt(3 * f + 1), mesh.vertexAt(3 * f + 2)) < ghosts) this.ghostFaces.push(f);
     }
     this.facesLooked = Math.max(this.facesLooked, faceCount);
   }

@@ -51,14 +51,14 @@ export class Painter {
   }
 
   private paintFace(surface: Surface, face: number, positions: Float32Array, colours: Uint8Array, at: number): void {
-    const { corners, positions: from } = surface;
+    const { positions: from } = surface;
     this.shape.measure(surface, face);
     const { size, stretch } = this.shape;
     this.sizes.add(size);
     const { by } = this.ramp;
     const value = by === "size" ? size : stretch;
     for (let c = 0; c < 3; ++c) {
-      const vertex = corners[3 * face + c]!;
+      const vertex = surface.vertexAt(3 * face + c);
       for (let axis = 0; axis < 3; ++axis) positions[at + 3 * c + axis] = from[3 * vertex + axis]! - this.centre[axis]!;
       this.ramp.put(by === "valence" ? this.valence[vertex]! : value, colours, at + 3 * c);
     }

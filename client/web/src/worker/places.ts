@@ -28,7 +28,7 @@ export function placeOf(surface: Surface, { of, number }: Element): PlaceOf | un
   let size = 0;
   for (let at = 0; at < 3 * surface.faceCount; ++at) {
     const face = Math.floor(at / 3);
-    if (surface.corners[at] !== vertex || !isSeen(surface, face)) continue;
+    if (surface.vertexAt(at) !== vertex || !isSeen(surface, face)) continue;
     shape.measure(surface, face);
     size = Math.max(size, shape.size);
   }

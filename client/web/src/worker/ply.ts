@@ -16,5 +16,5 @@ export function readPly(bytes: ArrayBuffer): Surface {
   for (let f = 0; f < faceCount; ++f) {
     for (let c = 0; c < 3; ++c) corners[3 * f + c] = view.getUint32(faceBytes * f + 1 + 4 * c, true);
   }
-  return { vertexCount, faceCount, ghosts: 0, positions, corners };
+  return { vertexCount, faceCount, ghosts: 0, positions, vertexAt: (corner) => corners[corner]! };
 }

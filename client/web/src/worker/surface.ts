@@ -7,18 +7,20 @@ export interface Surface {
   /** Vertices 0 to ghosts - 1 close boundaries; their faces are not seen. */
   readonly ghosts: number;
   readonly positions: Float64Array;
-  readonly corners: Uint32Array;
+  /** The vertex at a corner; corner 3f + c is the c-th of face f. */
+  vertexAt(corner: number): number;
 }
 
-export function isSeen({ corners, ghosts }: Surface, face: number): boolean {
+export function isSeen(surface: Surface, face: number): boolean {
+  const { ghosts } = surface;
   if (ghosts === 0) return true;
   const at = 3 * face;
-  return corners[at]! >= ghosts && corners[at + 1]! >= ghosts && corners[at + 2]! >= ghosts;
+  return surface.vertexAt(at) >= ghosts && surface.vertexAt(at + 1) >= ghosts && surface.vertexAt(at + 2) >= ghosts;
 }
 
 /** The middle of a face. */
-export function centroid({ corners, positions }: Surface, face: number): Point {
-  const mean = (axis: number): number => [0, 1, 2].reduce((sum, c) => sum + positions[3 * corners[3 * face + c]! + axis]!, 0) / 3;
+export function centroid(surface: Surface, face: number): Point {
+  const mean = (axis: number): number => [0, 1, 2].reduce((sum, c) => sum + surface.positions[3 * surface.vertexAt(3 * face + c) + axis]!, 0) / 3;
   return [mean(0), mean(1), mean(2)];
 }
 
@@ -27,8 +29,9 @@ export class FaceShape {
   stretch = 0;
   size = 0;
 
-  measure({ positions, corners }: Surface, face: number): void {
-    const a = 3 * corners[3 * face]!, b = 3 * corners[3 * face + 1]!, c = 3 * corners[3 * face + 2]!;
+  measure(surface: Surface, face: number): void {
+    const { positions } = surface;
+    const a = 3 * surface.vertexAt(3 * face), b = 3 * surface.vertexAt(3 * face + 1), c = 3 * surface.vertexAt(3 * face + 2);
     const ax = positions[a]!, ay = positions[a + 1]!, az = positions[a + 2]!;
     const ux = positions[b]! - ax, uy = positions[b + 1]! - ay, uz = positions[b + 2]! - az;
     const vx = positions[c]! - ax, vy = positions[c + 1]! - ay, vz = positions[c + 2]! - az;
@@ -46,10 +49,10 @@ export class FaceShape {
 
 /** For each vertex, where the corners at it begin in a list that is ordered by vertex, of faces that are seen. */
 function cornersByVertex(surface: Surface): { first: Uint32Array; faces: Uint32Array } {
-  const { corners, faceCount, vertexCount } = surface;
+  const { faceCount, vertexCount } = surface;
   const first = new Uint32Array(vertexCount + 1);
   const each = (visit: (vertex: number, face: number) => void): void => {
-    for (let f = 0; f < faceCount; ++f) if (isSeen(surface, f)) for (let c = 3 * f; c < 3 * f + 3; ++c) visit(corners[c]!, f);
+    for (let f = 0; f < faceCount; ++f) if (isSeen(surface, f)) for (let c = 3 * f; c < 3 * f + 3; ++c) visit(surface.vertexAt(c), f);
   };
   each((vertex) => ++first[vertex + 1]!);
   for (let v = 0; v < vertexCount; ++v) first[v + 1]! += first[v]!;
@@ -60,7 +63,7 @@ function cornersByVertex(surface: Surface): { first: Uint32Array; faces: Uint32A
 
 /** Edges at each vertex that are seen, as the server counts them: each once, however many faces share it. O(faces). */
 export function valences(surface: Surface): Uint32Array {
-  const { corners, vertexCount } = surface;
+  const { vertexCount } = surface;
   const { first, faces } = cornersByVertex(surface);
   const count = new Uint32Array(vertexCount);
   /** The vertex from which a neighbour was met last, plus one. */
@@ -68,7 +71,7 @@ export function valences(surface: Surface): Uint32Array {
   for (let v = 0; v < vertexCount; ++v) {
     for (let n = first[v]!; n < first[v + 1]!; ++n) {
       for (let c = 3 * faces[n]!; c < 3 * faces[n]! + 3; ++c) {
-        const other = corners[c]!;
+        const other = surface.vertexAt(c);
         if (other === v || met[other] === v + 1) continue;
         met[other] = v + 1;
         ++count[v]!;
