@@ -39,7 +39,6 @@ public:
     /// The edge of largest priority, or kNone when there is none.
     [[nodiscard]] HalfEdge top();
 
-    [[nodiscard]] bool has(HalfEdge edge) const { return levels_[0].best[edge] >= 0; }
     [[nodiscard]] double priority(HalfEdge edge) const { return levels_[0].best[edge]; }
 
 private:

@@ -39,10 +39,6 @@ constexpr int kFinalMends = 8;
 /// A collapse that the guard refused so often is not tried again before the next checkpoint: trying is dear.
 constexpr std::uint8_t kMostRefusals = 3;
 
-/// The extended mode takes it that a collapse raises priorities two edges away no higher than by this factor, and finds out what
-/// they are when that much would be the largest. Three in eight evaluations are saved; with 1.5 half, but the mean shape suffers.
-constexpr double kMostRise = 2;
-
 /// Points of the source for each face asked for, to measure the deviation by.
 constexpr std::uint32_t kPointsAFace = 8;
 
@@ -231,10 +227,6 @@ private:
         while (has_collapses_above(faces)) {
             const HalfEdge edge = queue_.top();
             if (edge == kNone || (!Policy::kExtended && is_below_floor())) break;
-            if (edges_[edge].is_bound) {
-                settle(edge);
-                continue;
-            }
             collapse(edge);
             if (++collapses % kLookEvery == 0 && context_.cancelled()) return ExecutionContext::cancelled_error();
             if (collapses % kReportEvery == 0) report_simplified();
@@ -246,17 +238,8 @@ private:
     void settle(HalfEdge edge) {
         if (edges_[edge].refusals >= kMostRefusals) return;
         const Evaluation evaluation = evaluator_.rank(edge);
-        edges_[edge].is_bound = false;
         edges_[edge].out_of_reach = evaluation.verdict == Evaluation::Verdict::kOutOfReach;
         evaluation.verdict == Evaluation::Verdict::kValid ? queue_.set(edge, evaluation.priority) : queue_.erase(edge);
-    }
-
-    /// Queues an edge by what its priority is at most taken to be, where it is queued.
-    [[nodiscard]] bool put_off(HalfEdge edge) {
-        if (!queue_.has(edge)) return false;
-        if (!edges_[edge].is_bound) queue_.set(edge, kMostRise * queue_.priority(edge));
-        edges_[edge].is_bound = true;
-        return true;
     }
 
     /// Evaluates every edge, on all threads the context allows: each depends only on the mesh as it stands.
@@ -336,7 +319,7 @@ private:
 
     void drop_number(HalfEdge edge) {
         queue_.erase(edge);
-        edges_[edge].out_of_reach = edges_[edge].is_bound = false;
+        edges_[edge].out_of_reach = false;
     }
 
     void update_faces(std::uint32_t kept) {
@@ -365,8 +348,7 @@ private:
                 if (visited_[other] == visit_ && other < v) return;  // both ends in the ring: once is enough
                 const HalfEdge edge = mesh_.edge_of(h);
                 // Neither quadric changed unless an end is k: no place came within reach.
-                const bool is_apart = other != k && v != k;
-                if (is_apart && (edges_[edge].out_of_reach || (Policy::kExtended && put_off(edge)))) return;
+                if (edges_[edge].out_of_reach && other != k && v != k) return;
                 prefetch(state_.quadrics[other]);
                 open_.push_back(edge);
             });
@@ -393,8 +375,7 @@ private:
     /// What is known of an edge beside its priority, in a byte.
     struct EdgeNote {
         bool out_of_reach : 1 = false;  // not queued, nor will it be until one of its ends moves
-        bool is_bound : 1 = false;      // queued by what its priority is at most taken to be
-        std::uint8_t refusals : 6 = 0;  // how often the guard refused it since all edges were evaluated
+        std::uint8_t refusals : 7 = 0;  // how often the guard refused it since all edges were evaluated
     };
     std::vector<EdgeNote> edges_;
     CollapseLog log_;
