@@ -95,9 +95,16 @@ void EdgeFlipper::flip(const Quad& quad, HalfEdge h) {
         Quad::state(quad.right, state_.sizes.relative(quad.right.size, quad.c, quad.d, quad.b));
 }
 
+/// Of one of the faces that a flip would make: most flips need not be looked at further.
+double EdgeFlipper::left_stretch(HalfEdge h) const {
+    const auto at = [this](HalfEdge corner) -> const Vec3& { return mesh_.position(mesh_.origin(corner)); };
+    return FlipQuad::Face(at(prev(mesh_.twin(h))), at(prev(h)), at(h)).stretch;
+}
+
 bool EdgeFlipper::flip_if_better(HalfEdge h) {
     if (mesh_.is_crease(h) || is_beside_ghost(h)) return false;
-    if (std::min(state_.faces[face_of(h)].stretch, state_.faces[face_of(mesh_.twin(h))].stretch) > kGoodEnough) return false;
+    const double stretch = std::min(state_.faces[face_of(h)].stretch, state_.faces[face_of(mesh_.twin(h))].stretch);
+    if (stretch > kGoodEnough || !(left_stretch(h) - stretch > kLeastGain)) return false;
     const Quad quad(mesh_, state_, h);
     if (!(quad.gain() > kLeastGain) || !may_flip(quad) || !keeps_bounds(quad) || !guards_admit(quad, h)) return false;
     flip(quad, h);

@@ -46,6 +46,7 @@ private:
     struct Quad;
 
     void flip_open_edges();
+    [[nodiscard]] double left_stretch(HalfEdge h) const;
     [[nodiscard]] bool flip_if_better(HalfEdge h);
     [[nodiscard]] bool is_as_refused(HalfEdge h) const;
     [[nodiscard]] bool is_beside_ghost(HalfEdge h) const;

@@ -20,6 +20,15 @@ double largest(const double* players) {
     return *std::max_element(best.begin(), best.end());
 }
 
+/// The first of the players that has it, one of them does. Several at a step, since where it ends cannot be foretold.
+std::size_t first_with(const double* players, double priority) {
+    const auto has = [=](std::size_t i) { return static_cast<int>(players[i] == priority); };
+    std::size_t i = 0;
+    while ((has(i) | has(i + 1) | has(i + 2) | has(i + 3)) == 0) i += kLanes;
+    while (has(i) == 0) ++i;
+    return i;
+}
+
 }  // namespace
 
 EdgeQueue::EdgeQueue(std::size_t half_edges) {
@@ -60,12 +69,11 @@ void EdgeQueue::play_open_matches() {
 
 HalfEdge EdgeQueue::top() {
     play_open_matches();
+    const double most = largest<kPlayers>(levels_.back().best.data());
+    if (most < 0) return kNone;
     std::size_t match = 0;
     for (std::size_t level = levels_.size(); level-- > 0;) {
-        const double* players = &levels_[level].best[match * kPlayers];
-        const auto* winner = std::max_element(players, players + kPlayers);  // the first among equals
-        if (*winner < 0) return kNone;
-        match = match * kPlayers + static_cast<std::size_t>(winner - players);
+        match = match * kPlayers + first_with(&levels_[level].best[match * kPlayers], most);
     }
     return static_cast<HalfEdge>(match);
 }

@@ -45,8 +45,10 @@ std::array<HalfSpace, 2> SegmentShape::sides() const {
 
 PreparedTriangle::PreparedTriangle(const TriangleShape& shape) : shape_(shape) {
     const auto& [a, b, c] = shape.corners;
-    normal_ = (b - a).cross(c - a);
-    whole_ = normal_.squaredNorm();
+    const Vec3 normal = (b - a).cross(c - a);
+    whole_ = normal.squaredNorm();
+    rise_b_ = (c - a).cross(normal);
+    rise_c_ = normal.cross(b - a);
     const double ab = (b - a).squaredNorm(), ac = (c - a).squaredNorm(), bc = (c - b).squaredNorm();
     const double longest = std::max({ab, ac, bc});
     thin_ = !(whole_ > kThin * longest * longest);
@@ -54,10 +56,9 @@ PreparedTriangle::PreparedTriangle(const TriangleShape& shape) : shape_(shape) {
 }
 
 PreparedTriangle::Weights PreparedTriangle::weights(const Vec3& p) const {
-    const auto& [a, b, c] = shape_.corners;
-    const Vec3 ap = p - a;
-    const double weight_b = normal_.dot(ap.cross(c - a));
-    const double weight_c = normal_.dot((b - a).cross(ap));
+    const Vec3 ap = p - shape_.corners[0];
+    const double weight_b = rise_b_.dot(ap);
+    const double weight_c = rise_c_.dot(ap);
     return {whole_ - weight_b - weight_c, weight_b, weight_c};
 }
 

@@ -68,8 +68,9 @@ public:
     [[nodiscard]] std::array<HalfSpace, TriangleShape::kCorners> sides() const { return shape_.sides(); }
 
 private:
-    /// Barycentric weights of the projection of p, times |normal|^2. Through the normal they keep a relative error of rounding
-    /// over (height / length); the Gram determinants of the usual form would square that.
+    /// Barycentric weights of the projection of p, times |normal|^2. Each grows along the product of the normal and the edge
+    /// opposite, so they keep a relative error of rounding over (height / length); the Gram determinants of the usual form would
+    /// square that.
     struct Weights {
         double a, b, c;
     };
@@ -79,8 +80,8 @@ private:
     [[nodiscard]] bool is_beyond(const Vec3& p, const Weights& weights, double most) const;
 
     TriangleShape shape_;
-    Vec3 normal_ = Vec3::Zero();
-    double whole_ = 0;             // |normal|^2
+    Vec3 rise_b_ = Vec3::Zero(), rise_c_ = Vec3::Zero();  // gradients of the weights of b and c
+    double whole_ = 0;                                    // |normal|^2
     std::array<double, 3> far_{};  // of a, b, c: what a weight's square is at a distance of 1 beyond the edge opposite
     bool thin_ = false;
 };
