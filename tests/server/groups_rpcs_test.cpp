@@ -12,8 +12,8 @@ namespace {
 
 /// In `regions` of the same size, the first of them called "wall".
 std::string file_in_regions(TriangleMesh mesh, std::uint32_t regions) {
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) mesh.regions.push_back(f % regions);
-    mesh.sets = {{"wall", {0}}};
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) mesh.regions.push_back(1 + f % regions);  // 0 has no name in MSH
+    mesh.sets = {{"wall", {1}}};
     return file_of(mesh, MeshFormat::kMsh);
 }
 
