@@ -47,7 +47,7 @@ struct Rim {
     std::uint32_t shut = 0;
 
     /// A sheet, which nothing else touches, or part of a surface that has the other copy too much; else a wall of no thickness.
-    [[nodiscard]] bool is_surface() const { return open >= shut; }
+    [[nodiscard]] bool is_surface() const { return open > shut || shut == 0; }
 };
 
 /// Settles the faces that cancel, piece by piece: of a wall no copy is kept, else the one that agrees with the faces beside it.
