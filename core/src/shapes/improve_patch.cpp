@@ -16,6 +16,7 @@ namespace {
 constexpr double kGoodStretch = 0.4;  // where the search for a size ends
 constexpr double kStep = 0.7;         // from the size asked for down, as short edges of the border may need smaller faces
 constexpr int kMostTries = 12;
+constexpr std::size_t kResolutions = 40;  // that are looked at in one try
 
 double least_stretch(const TriangleMesh& mesh) {
     double least = 1;
@@ -76,6 +77,28 @@ std::optional<Patch> renumbered(const TriangleMesh& made, const Patch& patch) {
     return result;
 }
 
+double largest_face(const TriangleMesh& mesh) {
+    double most = 0;
+    for (const Triangle& t : mesh.faces)
+        most = std::max(most, face_size(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
+    return most;
+}
+
+/// Of some resolutions from the coarsest to the one that was made, evenly apart, the first whose faces are as good as those of
+/// the latter, or good, and no larger than asked: their mean size is the nearest to that.
+TriangleMesh coarsest_good(const MethodResult& made, double largest) {
+    const std::size_t last = made.mrr.level_for(made.faces);
+    TriangleMesh finest = mesh_at(made.mrr, last);
+    const double least = std::min(kGoodStretch, least_stretch(finest));
+    const double most = std::max(largest, largest_face(finest));
+    const std::size_t step = last / kResolutions + 1;
+    for (std::size_t level = 0; level < last; level += step) {
+        TriangleMesh mesh = mesh_at(made.mrr, level);
+        if (largest_face(mesh) <= most && least_stretch(mesh) >= least) return mesh;
+    }
+    return finest;
+}
+
 std::optional<Patch> improved(const Patch& patch, double subdivision_size, double largest) {
     ImproveOptions options;
     options.subdivision_size = subdivision_size;
@@ -86,7 +109,7 @@ std::optional<Patch> improved(const Patch& patch, double subdivision_size, doubl
     const ExecutionContext context({}, 1);
     const Expected<MethodResult> made = improve(patch.mesh, options, {}, context);
     if (!made) return {};
-    return renumbered(mesh_at(made->mrr, made->mrr.level_for(made->faces)), patch);
+    return renumbered(coarsest_good(*made, largest), patch);
 }
 
 }  // namespace
