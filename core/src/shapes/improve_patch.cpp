@@ -13,10 +13,10 @@
 namespace vsplit {
 namespace {
 
-constexpr double kGoodStretch = 0.4;  // where the search for a size ends
-constexpr double kStep = 0.7;         // from the size asked for down, as short edges of the border may need smaller faces
+constexpr double kGoodStretch = 0.31;  // where the search for a size ends: 0.3 with a margin, as what has more is smaller
+constexpr double kStep = 0.7;          // from the size asked for down, as short edges of the border may need smaller faces
 constexpr int kMostTries = 12;
-constexpr std::size_t kResolutions = 40;  // that are looked at in one try
+constexpr double kOver = 1 / 0.95;  // sizing keeps so far under its bound, for places between vertices; a patch needs it not
 
 double least_stretch(const TriangleMesh& mesh) {
     double least = 1;
@@ -77,26 +77,10 @@ std::optional<Patch> renumbered(const TriangleMesh& made, const Patch& patch) {
     return result;
 }
 
-double largest_face(const TriangleMesh& mesh) {
-    double most = 0;
-    for (const Triangle& t : mesh.faces)
-        most = std::max(most, face_size(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
-    return most;
-}
-
-/// Of some resolutions from the coarsest to the one that was made, evenly apart, the first whose faces are as good as those of
-/// the latter, or good, and no larger than asked: their mean size is the nearest to that.
-TriangleMesh coarsest_good(const MethodResult& made, double largest) {
-    const std::size_t last = made.mrr.level_for(made.faces);
-    TriangleMesh finest = mesh_at(made.mrr, last);
-    const double least = std::min(kGoodStretch, least_stretch(finest));
-    const double most = std::max(largest, largest_face(finest));
-    const std::size_t step = last / kResolutions + 1;
-    for (std::size_t level = 0; level < last; level += step) {
-        TriangleMesh mesh = mesh_at(made.mrr, level);
-        if (largest_face(mesh) <= most && least_stretch(mesh) >= least) return mesh;
-    }
-    return finest;
+bool is_within(const TriangleMesh& mesh, double largest) {
+    return std::all_of(mesh.faces.begin(), mesh.faces.end(), [&](const Triangle& t) {
+        return face_size(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]) <= largest;
+    });
 }
 
 std::optional<Patch> improved(const Patch& patch, double subdivision_size, double largest) {
@@ -104,12 +88,13 @@ std::optional<Patch> improved(const Patch& patch, double subdivision_size, doubl
     options.subdivision_size = subdivision_size;
     options.freeze_boundary = true;
     options.min_stretch = kGoodStretch;
+    options.min_mean_stretch = 0;  // short edges of a border make stretched faces; the least one counts
     options.sizing.emplace();
     options.sizing->max_size = largest;
     const ExecutionContext context({}, 1);
     const Expected<MethodResult> made = improve(patch.mesh, options, {}, context);
     if (!made) return {};
-    return renumbered(coarsest_good(*made, largest), patch);
+    return renumbered(mesh_at(made->mrr, made->mrr.level_for(made->faces)), patch);
 }
 
 }  // namespace
@@ -117,11 +102,13 @@ std::optional<Patch> improved(const Patch& patch, double subdivision_size, doubl
 Patch improve_patch(const Patch& patch, double size) {
     const BorderEdges edges = measure_border(patch);
     Patch best = patch;
-    double stretch_of_best = least_stretch(patch.mesh);
-    double aim = size;
+    const double largest = std::max(size, edges.longest);
+    double stretch_of_best = is_within(patch.mesh, largest) ? least_stretch(patch.mesh) : 0;
+    double aim = std::min(size, bounding_box(patch.mesh).diagonal());  // what is larger divides nothing
     for (int i = 0; i < kMostTries && stretch_of_best < kGoodStretch; ++i, aim *= kStep) {
         if (i > 0 && aim < edges.mean / 2) break;
-        std::optional<Patch> tried = improved(patch, aim, std::max(size, edges.longest));
+        std::optional<Patch> tried = improved(patch, aim, kOver * largest);
+        if (tried && !is_within(tried->mesh, largest)) tried = improved(patch, aim, largest);
         if (!tried) continue;
         const double least = least_stretch(tried->mesh);
         if (least <= stretch_of_best) continue;
