@@ -120,7 +120,7 @@ void add_output(CLI::App& verb, Arguments& a) {
         ->type_name("F");
     verb.add_option("--order", a.order,
                     "Of the elements in OUT: 1, or 2 for triangles of six nodes, the middle ones on the surface worked on, of a "
-                    ".vsplit file on its finest resolution (msh, inp, bdf, vtk, vtu). Default 1")
+                    ".vsplit file IN on its finest resolution (msh, inp, bdf, vtk, vtu). Default 1")
         ->check(CLI::Range(1U, 2U).description(""))
         ->type_name("N");
     verb.add_option_function<std::string>(
@@ -443,7 +443,8 @@ void add_remove_features(CLI::App& app, Arguments& a) {
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);
-    add_real(verb, "--max-diameter", a.removal.max_diameter, "Remove all of this diameter and less; length > 0")->type_name("D");
+    add_real(verb, "--max-diameter", a.removal.max_diameter, "Remove all of this diameter (to 0.01 %) and less; length > 0")
+        ->type_name("D");
     add_kinds(verb, a);
     verb.footer(
         "With --session the result takes the place of the session's mesh.\n"

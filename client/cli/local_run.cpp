@@ -62,6 +62,7 @@ struct Measured {
     TriangleMesh mesh;
     std::optional<LengthUnit> unit;
     std::vector<Finding> findings{};  ///< of a mesh as it was read and repaired
+    std::optional<TriangleMesh> surface{};  ///< of a .vsplit file its finest resolution, where mid-side nodes are to go on it
 };
 
 /// A mesh, or a .vsplit file at a resolution.
@@ -69,7 +70,9 @@ Expected<Measured> read_any(const std::string& path, std::optional<std::uint32_t
     if (is_representation_file(path)) {
         Expected<Outcome> stored = load_representation(path, faces, a.unit);
         if (!stored) return stored.error();
-        return Measured{*std::move(stored->mesh), unit_of(stored->document)};
+        Measured measured{*std::move(stored->mesh), unit_of(stored->document)};
+        if (a.order == 2) measured.surface = mesh_at(stored->stored->mrr, stored->stored->mrr.levels());
+        return measured;
     }
     Expected<Source> read = read_source(path, a);
     if (!read) return read.error();
@@ -100,7 +103,8 @@ Expected<Outcome> run_method(const Arguments& a, const std::vector<Output>& outp
         if (!hash) return hash.error();
         stored.source = *hash;
     }
-    return Outcome{std::move(made), std::move(mesh), std::move(stored), std::move(source->mesh)};
+    TriangleMesh& surface = source->surface ? *source->surface : source->mesh;
+    return Outcome{std::move(made), std::move(mesh), std::move(stored), std::move(surface)};
 }
 
 Expected<Outcome> run_improve(const Arguments& a, const std::vector<Output>& outputs, ProgressBar& progress,

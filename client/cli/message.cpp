@@ -163,4 +163,11 @@ std::string on_chord_note(std::uint32_t edges) {
            " straight: curved to the surface they would make bad elements of order 2\n";
 }
 
+std::string controlled_surface_note(const v1::Representation& made) {
+    if (made.method() != v1::CONTROL) return "";
+    return "vsplit: note: the middle nodes lie on the mesh that control was given, of which the .vsplit file knows no more; "
+           "write "
+           "them by `vsplit control` itself to have them on the surface that a mesh of `improve` was made of\n";
+}
+
 }  // namespace vsplit::cli

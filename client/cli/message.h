@@ -42,4 +42,8 @@ namespace vsplit::cli {
 /// A line that says how many sides of second-order elements are straight so that none is bad; empty for none.
 [[nodiscard]] std::string on_chord_note(std::uint32_t edges);
 
+/// A line that says that mid-side nodes of a stored representation lie on what `control` was given; empty for one of `improve`,
+/// whose finest resolution is the source's surface.
+[[nodiscard]] std::string controlled_surface_note(const v1::Representation& made);
+
 }  // namespace vsplit::cli

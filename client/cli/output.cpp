@@ -62,8 +62,13 @@ Expected<MidsideNodes> nodes_of(const Outcome& outcome) {
     if (outcome.surface) return midside_nodes(*outcome.mesh, *outcome.surface, context);
     if (!outcome.stored) return midside_nodes(*outcome.mesh, *outcome.mesh, context);
     const MultiresMesh& mrr = outcome.stored->mrr;
-    const TriangleMesh finest = mesh_at(mrr, mrr.level_for(mrr.faces_max()));
-    return midside_nodes(*outcome.mesh, finest, context);
+    return midside_nodes(*outcome.mesh, mesh_at(mrr, mrr.levels()), context);
+}
+
+/// Whether a .vsplit file alone knows no more than the mesh that `control` was given.
+std::string surface_note(const Document& document) {
+    const auto* made = std::get_if<v1::Representation>(&document);
+    return made != nullptr ? controlled_surface_note(*made) : "";
 }
 
 /// The outcome's mesh in the unit of the outputs.
@@ -78,6 +83,7 @@ Status write_mesh_output(const Outcome& outcome, const Output& output, const Arg
     Expected<MidsideNodes> nodes = nodes_of(outcome);
     if (!nodes) return nodes.error();
     if (from != to) convert_lengths(nodes->positions, *from, *to);
+    if (!outcome.surface) std::cerr << surface_note(outcome.document);
     std::cerr << on_chord_note(nodes->on_chord);
     return write_second_order_file(mesh, *nodes, *output.format, output.path);
 }

@@ -7,10 +7,12 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -199,6 +201,40 @@ TEST_F(CommandLineTest, ResolutionOutOfRangeSaysWhichWasTaken) {
     const auto shown = json_of<v1::Representation>(result);
     EXPECT_EQ(shown.faces(), shown.faces_max());
     EXPECT_NE(result.err.find("is the nearest resolution"), std::string::npos) << result.err;
+}
+
+TEST_F(CommandLineTest, MiddlesAfterImproveAndControlLieOnTheOriginalSurface) {
+    const std::string ball = mesh_file("ball.off", test::icosphere(5));
+    const std::string improved = file("i.vsplit"), controlled = file("c.vsplit");
+    ASSERT_EQ(run({"improve", ball, "--faces", "300", "--max-deviation", "0.1", "-o", improved}).exit_status, 0);
+    const CommandResult made = run({"control", improved, "--order", "2", "-o", file("c.vtk"), "--format", "vtk-ascii"});
+    ASSERT_EQ(made.exit_status, 0) << made.err;
+    EXPECT_EQ(made.err.find("note"), std::string::npos);
+    const std::string text = test::file_content(file("c.vtk"));
+    std::istringstream points(text.substr(text.find("POINTS ")));
+    std::string word;
+    std::size_t count = 0, middles = 0, off = 0;
+    points >> word >> count >> word;
+    std::vector<Vec3> all(count);
+    for (Vec3& p : all) points >> p.x() >> p.y() >> p.z();
+    std::istringstream cells(text.substr(text.find("CELLS ")));
+    std::size_t faces = 0;
+    cells >> word >> faces >> word;
+    for (std::size_t f = 0, size = 0; f < faces && cells >> size; ++f) {
+        for (std::size_t i = 0, node = 0; i < size && cells >> node; ++i) {
+            if (i < 3) continue;
+            ++middles;
+            off += std::abs(all.at(node).norm() - 1) > 0.003 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(middles, 500U);
+    EXPECT_EQ(off, 0U);
+    // A file of the result knows the mesh that control was given alone, and says so.
+    ASSERT_EQ(run({"control", improved, "-o", controlled}).exit_status, 0);
+    EXPECT_NE(run({"resolution", controlled, "--order", "2", "-o", file("c.inp")}).err.find("control was given"),
+              std::string::npos);
+    EXPECT_EQ(run({"resolution", improved, "--order", "2", "-o", file("i.inp")}).err.find("control was given"),
+              std::string::npos);
 }
 
 TEST_F(CommandLineTest, ResolutionStoresTheRepresentationAtAnother) {

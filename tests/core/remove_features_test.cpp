@@ -35,6 +35,7 @@ FeaturelessMesh without_all(const TriangleMesh& mesh) {
 struct NewFaces {
     double least_stretch = 1;
     double mean_size = 0;
+    double largest_size = 0;
 };
 
 NewFaces measure(const FeaturelessMesh& result) {
@@ -46,6 +47,7 @@ NewFaces measure(const FeaturelessMesh& result) {
         const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
         measured.least_stretch = std::min(measured.least_stretch, stretch(a, b, c));
         measured.mean_size += face_size(a, b, c) / count;
+        measured.largest_size = std::max(measured.largest_size, face_size(a, b, c));
     }
     return measured;
 }
@@ -85,7 +87,13 @@ TEST(RemoveFeaturesTest, NewFacesFitAMeshMadeForAnalysis) {
     const TriangleMesh mesh = mesh_at(improved->mrr, improved->mrr.level_for(improved->faces));
     const auto features = list_features(mesh);
     ASSERT_TRUE(features);
-    for (const ShapeFeature& f : *features) EXPECT_NEAR(f.diameter, std::round(f.diameter), 0.01 * f.diameter);
+    ASSERT_EQ(features->size(), 40U);
+    const std::vector<test::Drilling> drillings = test::forty_drillings(kThickness);
+    for (const ShapeFeature& f : *features) {
+        const auto column = static_cast<std::uint32_t>(f.centre.x() / 10), row = static_cast<std::uint32_t>(f.centre.y() / 10);
+        const double diameter = drillings[8 * row + column].diameter;
+        EXPECT_NEAR(f.diameter, diameter, 0.01 * diameter);
+    }
     const FeaturelessMesh result = without_all(mesh);
     EXPECT_EQ(result.removed.size(), 40U);
     expect_rest_is_the_same(mesh, result);
@@ -132,6 +140,45 @@ TEST(RemoveFeaturesTest, ADiameterTakesTheSmallOnes) {
     ASSERT_TRUE(left);
     EXPECT_EQ(left->size(), 24U);
     for (const ShapeFeature& f : *left) EXPECT_GT(f.diameter, 3.01);
+}
+
+TEST(RemoveFeaturesTest, ADiameterIsTheSameInAFileOfFloats) {
+    TriangleMesh mesh = test::drilled_plate(2, 10, 3, {{3, 3, 24}, {3.01, 3, 24}});
+    for (Vec3& p : mesh.positions) p = (p * (1 + 1e-6)).cast<float>().cast<double>();
+    const auto features = list_features(mesh);
+    ASSERT_TRUE(features);
+    ASSERT_EQ(features->size(), 2U);
+    EXPECT_GT((*features)[0].diameter, 3);
+    const auto result = removed_from(mesh, {{}, {}, 3.0});
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->removed, std::vector<std::uint32_t>{0});
+}
+
+TEST(RemoveFeaturesTest, RimsOfShortEdgesGetFacesAsLargeAsTheyCanBe) {
+    // Holes up to 4.5 times as wide as the mesh's faces are in the mean, with rims of edges much shorter than those.
+    std::vector<test::Drilling> drillings;
+    for (std::uint32_t i = 0; i < 40; ++i) drillings.push_back({2 + 0.1 * i, 4, 24});
+    TriangleMesh mesh = test::drilled_plate(8, 10, kThickness, drillings);
+    ImproveOptions options;
+    options.subdivision_size = 1.3;
+    options.tolerance = 0.01;
+    options.faces = 40'000;
+    const ExecutionContext context;
+    const auto improved = improve(mesh, options, {}, context);
+    ASSERT_TRUE(improved) << improved.error().message;
+    mesh = mesh_at(improved->mrr, improved->mrr.level_for(improved->faces));
+    const FeaturelessMesh result = without_all(mesh);
+    EXPECT_EQ(result.removed.size(), 40U);
+    const NewFaces measured = measure(result);
+    EXPECT_GE(measured.least_stretch, 0.3);
+    EXPECT_LE(measured.largest_size, result.size * (1 + 1e-9));
+    EXPECT_NEAR(measured.mean_size, result.size, 0.2 * result.size);
+}
+
+TEST(RemoveFeaturesTest, TinyHolesOfACoarsePlateGetGoodFaces) {
+    const FeaturelessMesh result = without_all(test::drilled_plate(8, 10, 5, std::vector<test::Drilling>(40, {0.2, 5, 64})));
+    EXPECT_EQ(result.removed.size(), 40U);
+    EXPECT_GE(measure(result).least_stretch, 0.3);
 }
 
 TEST(RemoveFeaturesTest, RegionsAndSetsStay) {

@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "tests/core/drilled_plate.h"
 #include "tests/core/meshes.h"
 #include "vsplit/io/read_mesh.h"
+#include "vsplit/method/improve.h"
+#include "vsplit/mrr/progressive_mesh.h"
 
 namespace vsplit {
 namespace {
@@ -85,6 +88,44 @@ TEST(ShapeFeaturesTest, FewSidesNeedALargerAngle) {
     const auto found = list_features(mesh, {50});
     ASSERT_TRUE(found);
     EXPECT_EQ(found->size(), 1U);
+}
+
+TEST(ShapeFeaturesTest, AnAngleOfAWholeTurnsShareIsEnough) {
+    // Nine sides bend by 40 degrees each, but for rounding.
+    TriangleMesh mesh = test::drilled_plate(1, 10, 3, {{4, 3, 36}});
+    EXPECT_EQ(list_features(mesh, {10})->size(), 1U);
+    for (Vec3& p : mesh.positions) p = p.cast<float>().cast<double>();
+    EXPECT_EQ(list_features(mesh, {10})->size(), 1U);
+    EXPECT_TRUE(list_features(mesh, {9.9})->empty());
+}
+
+TEST(ShapeFeaturesTest, FindsHolesThatAToleranceMadeUneven) {
+    // Holes of 1 to 4.9 by default: the tolerance is 0.094, so vertices are off their circle by up to 10 % of the radius.
+    std::vector<test::Drilling> drillings;
+    for (std::uint32_t i = 0; i < 40; ++i) drillings.push_back({1 + 0.1 * i, 5, 24});
+    ImproveOptions options;
+    options.subdivision_size = 1;
+    const ExecutionContext context;
+    const auto improved = improve(test::drilled_plate(8, 10, 5, drillings), options, {}, context);
+    ASSERT_TRUE(improved) << improved.error().message;
+    const std::vector<ShapeFeature> all = features_of(mesh_at(improved->mrr, improved->mrr.level_for(improved->faces)));
+    for (std::uint32_t i = 0; i < 40; ++i) {
+        const double diameter = drillings[i].diameter;
+        const Eigen::Vector2d middle(10 * (i % 8) + 5, 10 * (i / 8) + 5);
+        const auto found = std::find_if(all.begin(), all.end(), [&](const ShapeFeature& f) {
+            return f.kind == Kind::kThroughHole && (f.centre.head<2>() - middle).norm() < 0.02;
+        });
+        if (diameter < 2) continue;  // seven sides and fewer are left of these
+        ASSERT_NE(found, all.end()) << diameter;
+        EXPECT_NEAR(found->diameter, diameter, 0.01 * diameter);
+        EXPECT_NEAR(found->depth, 5, 0.01);
+    }
+}
+
+TEST(ShapeFeaturesTest, AnOvalIsNoHole) {
+    TriangleMesh mesh = test::drilled_plate(1, 10, 3, {{4, 3, 48}});
+    for (Vec3& p : mesh.positions) p.x() *= 1.2;
+    EXPECT_TRUE(features_of(mesh).empty());
 }
 
 TEST(ShapeFeaturesTest, SaysWhatItDoesNotTake) {

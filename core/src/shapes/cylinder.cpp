@@ -1,16 +1,41 @@
 #include "shapes/cylinder.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "shapes/circle.h"
 
 namespace vsplit {
 namespace {
 
-constexpr double kFlatNormals = 0.01;  // share of the square of the normals along the axis: 6 degrees in the mean
+constexpr double kFlatNormals = 0.03;  // share of the square of the normals along the axis: 10 degrees in the mean
 constexpr double kRingNormals = 0.2;   // least share across it in either direction; 0.5 for a whole turn
+constexpr double kScatter = 0.007;     // share of the radius, root mean square: vertices that are off by more lie on no circle
+constexpr double kFarthest = 0.2;      // the same of any one vertex: what a tolerance may do to a few of them
+
+/// How far points are off a circle.
+class OffCircle {
+public:
+    explicit OffCircle(double radius) : radius_(radius) {}
+
+    void add(double distance) {
+        const double off = std::abs(distance / radius_ - 1);
+        squares_ += off * off;
+        most_ = std::max(most_, off);
+        ++count_;
+    }
+    [[nodiscard]] double mean() const { return std::sqrt(squares_ / static_cast<double>(count_)); }
+    [[nodiscard]] bool is_round() const { return mean() <= kRoundness && most_ <= kFarthest; }
+
+private:
+    double radius_;
+    double squares_ = 0;
+    double most_ = 0;
+    std::size_t count_ = 0;
+};
 
 double area_of(const TriangleMesh& mesh, std::uint32_t f) {
     const Triangle& t = mesh.faces[f];
@@ -33,20 +58,70 @@ std::optional<Vec3> common_direction(const TriangleMesh& mesh, const FaceNormals
     return Vec3(solver.eigenvectors().col(0));
 }
 
+/// Points in the plane across a direction, with weights.
+class Section {
+public:
+    Section(const Vec3& origin, const Vec3& direction)
+        : origin_(origin), direction_(direction), u_(direction.unitOrthogonal()), v_(direction.cross(u_)) {}
+
+    void add(const Vec3& p, double weight) {
+        points_.emplace_back((p - origin_).dot(u_), (p - origin_).dot(v_));
+        weights_.push_back(weight);
+    }
+
+    [[nodiscard]] std::optional<Cylinder> cylinder() const {
+        const std::optional<Circle> circle = fit_circle(points_, weights_);
+        if (!circle) return {};
+        return Cylinder{{origin_ + circle->centre[0] * u_ + circle->centre[1] * v_, direction_}, circle->radius, false};
+    }
+
+private:
+    Vec3 origin_;
+    Vec3 direction_;
+    Vec3 u_;
+    Vec3 v_;
+    std::vector<Eigen::Vector2d> points_;
+    std::vector<double> weights_;
+};
+
 /// The cylinder along a direction through the vertices of a segment's borders.
-std::optional<Cylinder> fit_along(const TriangleMesh& mesh, const Segments::Segment& segment, const Vec3& direction) {
-    const Vec3 middle = middle_of(mesh, segment.loops.front());
-    const Vec3 u = direction.unitOrthogonal(), v = direction.cross(u);
-    std::vector<Eigen::Vector2d> points;
+std::optional<Cylinder> fit_borders(const TriangleMesh& mesh, const Segments::Segment& segment, const Vec3& direction) {
+    Section section(middle_of(mesh, segment.loops.front()), direction);
     for (const Segments::Loop& loop : segment.loops) {
-        for (const HalfEdge h : loop) {
-            const Vec3 p = mesh.positions[origin(mesh, h)] - middle;
-            points.emplace_back(p.dot(u), p.dot(v));
+        for (const HalfEdge h : loop) section.add(mesh.positions[origin(mesh, h)], 1);
+    }
+    return section.cylinder();
+}
+
+/// The one that a segment's faces swing around: corners are outside of what is meant and the middles of edges inside.
+std::optional<Cylinder> fit_faces(const TriangleMesh& mesh, const Segments::Segment& segment, const Vec3& direction) {
+    Section section(middle_of(mesh, segment.loops.front()), direction);
+    for (const std::uint32_t f : segment.faces) {
+        const double area = area_of(mesh, f);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 &p = mesh.positions[mesh.faces[f][i]], &q = mesh.positions[mesh.faces[f][(i + 1) % 3]];
+            section.add(p, area);
+            section.add((p + q) / 2, area);
         }
     }
-    const std::optional<Circle> circle = fit_circle(points);
-    if (!circle) return {};
-    return Cylinder{{middle + circle->centre[0] * u + circle->centre[1] * v, direction}, circle->radius, false};
+    return section.cylinder();
+}
+
+OffCircle vertices_off(const TriangleMesh& mesh, const Segments::Segment& segment, const Cylinder& cylinder) {
+    OffCircle off(cylinder.radius);
+    for (const std::uint32_t f : segment.faces) {
+        for (const std::uint32_t v : mesh.faces[f]) off.add(cylinder.axis.radial(mesh.positions[v]).norm());
+    }
+    return off;
+}
+
+bool looks_inward(const TriangleMesh& mesh, const FaceNormals& normals, const Segments::Segment& segment, const Axis& axis) {
+    double outward = 0;
+    for (const std::uint32_t f : segment.faces) {
+        for (const std::uint32_t v : mesh.faces[f])
+            outward += area_of(mesh, f) * axis.radial(mesh.positions[v]).dot(normals.normals[f]);
+    }
+    return outward < 0;
 }
 
 }  // namespace
@@ -64,34 +139,29 @@ Vec3 middle_of(const TriangleMesh& mesh, const Segments::Loop& loop) {
 }
 
 bool is_circle_around(const TriangleMesh& mesh, const Segments::Loop& loop, const Axis& axis) {
-    const double radius = axis.radial(mesh.positions[origin(mesh, loop.front())]).norm();
-    double turn = 0;
+    double turn = 0, radius = 0;
     for (const HalfEdge h : loop) {
         const Vec3 a = axis.radial(mesh.positions[origin(mesh, h)]), b = axis.radial(mesh.positions[origin(mesh, next(h))]);
-        if (std::abs(a.norm() - radius) > 2 * kRoundness * radius) return false;
+        radius += a.norm() / static_cast<double>(loop.size());
         turn += std::atan2(a.cross(b).dot(axis.direction), a.dot(b));
     }
-    return std::abs(std::abs(turn) - 2 * std::numbers::pi) < 0.1;
+    OffCircle off(radius);
+    for (const HalfEdge h : loop) off.add(axis.radial(mesh.positions[origin(mesh, h)]).norm());
+    return off.is_round() && std::abs(std::abs(turn) - 2 * std::numbers::pi) < 0.1;
 }
 
 std::optional<Cylinder> fit_cylinder(const TriangleMesh& mesh, const FaceNormals& normals, const Segments::Segment& segment) {
     if (segment.loops.size() != 2) return {};
     const std::optional<Vec3> direction = common_direction(mesh, normals, segment);
     if (!direction) return {};
-    std::optional<Cylinder> cylinder = fit_along(mesh, segment, *direction);
+    std::optional<Cylinder> cylinder = fit_borders(mesh, segment, *direction);
     if (!cylinder) return {};
-    double outward = 0;
-    for (const std::uint32_t f : segment.faces) {
-        for (const std::uint32_t v : mesh.faces[f]) {
-            const Vec3 arm = cylinder->axis.radial(mesh.positions[v]);
-            if (std::abs(arm.norm() - cylinder->radius) > kRoundness * cylinder->radius) return {};
-            outward += area_of(mesh, f) * arm.dot(normals.normals[f]);
-        }
-    }
+    if (vertices_off(mesh, segment, *cylinder).mean() > kScatter) cylinder = fit_faces(mesh, segment, *direction);
+    if (!cylinder || !vertices_off(mesh, segment, *cylinder).is_round()) return {};
     for (const Segments::Loop& loop : segment.loops) {
         if (!is_circle_around(mesh, loop, cylinder->axis)) return {};
     }
-    cylinder->inward = outward < 0;
+    cylinder->inward = looks_inward(mesh, normals, segment, cylinder->axis);
     return cylinder;
 }
 

@@ -23,11 +23,12 @@ struct Cylinder {
     bool inward = false;  ///< faces look at the axis, as in a hole
 };
 
-/// What share of a radius vertices may be off their circle.
+/// What share of a radius vertices may be off their circle, in the root mean square.
 inline constexpr double kRoundness = 0.05;
 
 /// The cylinder that a segment of two borders is, if it is one: faces along an axis, vertices at one distance from it, all the
-/// way around. O(faces of the segment).
+/// way around. It is that through the vertices of the borders, as CAD puts them on it; where the vertices scatter, as those that
+/// a mesher moved within a tolerance do, it is that in the middle of the faces. O(faces of the segment).
 [[nodiscard]] std::optional<Cylinder> fit_cylinder(const TriangleMesh& mesh, const FaceNormals& normals,
                                                    const Segments::Segment& segment);
 

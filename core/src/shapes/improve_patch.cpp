@@ -13,9 +13,10 @@
 namespace vsplit {
 namespace {
 
-constexpr double kGoodStretch = 0.4;  // where the search for a size ends
-constexpr double kStep = 0.7;         // from the size asked for down, as short edges of the border may need smaller faces
+constexpr double kGoodStretch = 0.31;  // where the search for a size ends: 0.3 with a margin, as what has more is smaller
+constexpr double kStep = 0.7;          // from the size asked for down, as short edges of the border may need smaller faces
 constexpr int kMostTries = 12;
+constexpr double kOver = 1 / 0.95;  // sizing keeps so far under its bound, for places between vertices; a patch needs it not
 
 double least_stretch(const TriangleMesh& mesh) {
     double least = 1;
@@ -76,11 +77,18 @@ std::optional<Patch> renumbered(const TriangleMesh& made, const Patch& patch) {
     return result;
 }
 
+bool is_within(const TriangleMesh& mesh, double largest) {
+    return std::all_of(mesh.faces.begin(), mesh.faces.end(), [&](const Triangle& t) {
+        return face_size(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]) <= largest;
+    });
+}
+
 std::optional<Patch> improved(const Patch& patch, double subdivision_size, double largest) {
     ImproveOptions options;
     options.subdivision_size = subdivision_size;
     options.freeze_boundary = true;
     options.min_stretch = kGoodStretch;
+    options.min_mean_stretch = 0;  // short edges of a border make stretched faces; the least one counts
     options.sizing.emplace();
     options.sizing->max_size = largest;
     const ExecutionContext context({}, 1);
@@ -94,11 +102,13 @@ std::optional<Patch> improved(const Patch& patch, double subdivision_size, doubl
 Patch improve_patch(const Patch& patch, double size) {
     const BorderEdges edges = measure_border(patch);
     Patch best = patch;
-    double stretch_of_best = least_stretch(patch.mesh);
-    double aim = size;
+    const double largest = std::max(size, edges.longest);
+    double stretch_of_best = is_within(patch.mesh, largest) ? least_stretch(patch.mesh) : 0;
+    double aim = std::min(size, bounding_box(patch.mesh).diagonal());  // what is larger divides nothing
     for (int i = 0; i < kMostTries && stretch_of_best < kGoodStretch; ++i, aim *= kStep) {
         if (i > 0 && aim < edges.mean / 2) break;
-        std::optional<Patch> tried = improved(patch, aim, std::max(size, edges.longest));
+        std::optional<Patch> tried = improved(patch, aim, kOver * largest);
+        if (tried && !is_within(tried->mesh, largest)) tried = improved(patch, aim, largest);
         if (!tried) continue;
         const double least = least_stretch(tried->mesh);
         if (least <= stretch_of_best) continue;

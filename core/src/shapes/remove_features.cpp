@@ -17,6 +17,8 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
+constexpr double kSameDiameter = 1e-4;  // share of it: 6 in a file of floats is 6.0000003
+
 Edge edge(std::uint32_t a, std::uint32_t b) { return std::minmax({a, b}); }
 
 double mean_size(const TriangleMesh& mesh) {
@@ -49,7 +51,8 @@ Expected<std::vector<std::uint32_t>> chosen(const std::vector<ShapeFeature>& fea
         ids.insert(id);
     }
     for (const ShapeFeature& feature : features) {
-        if (removal.max_diameter && feature.diameter <= *removal.max_diameter && wanted(feature.kind)) ids.insert(feature.id);
+        const bool under = removal.max_diameter && feature.diameter <= (1 + kSameDiameter) * *removal.max_diameter;
+        if (under && wanted(feature.kind)) ids.insert(feature.id);
     }
     return std::vector<std::uint32_t>(ids.begin(), ids.end());
 }

@@ -7,6 +7,8 @@
 namespace vsplit {
 namespace {
 
+constexpr double kRounding = 0.01;  // degrees: what coordinates as floats do to an edge that bends by the angle
+
 bool on_border(const Segments& s, HalfEdge h) { return s.of_face[face_of(h)] != s.of_face[face_of(s.twin[h])]; }
 
 /// The border's half-edge after h: the next around its target that leaves the segment.
@@ -41,7 +43,7 @@ std::uint32_t Segments::across(const Loop& loop) const {
 
 Segments find_segments(const TriangleMesh& mesh, const FaceNormals& normals, double angle) {
     CreaseMarks creases(mesh);
-    creases.mark(find_sharp_edges(mesh, normals, {angle, 1}));
+    creases.mark(find_sharp_edges(mesh, normals, {angle + kRounding, 1}));
     DisjointSets sets(mesh.faces.size());
     Segments s;
     s.twin.resize(3 * mesh.faces.size());

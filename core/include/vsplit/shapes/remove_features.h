@@ -14,7 +14,7 @@ namespace vsplit {
 struct FeatureRemoval {
     FeatureSearch search{};                   ///< as the list was made that the ids are from
     std::vector<std::uint32_t> ids{};         ///< of `list_features` of the same mesh
-    std::optional<double> max_diameter{};     ///< length, model units, > 0: all of this diameter and less
+    std::optional<double> max_diameter{};     ///< length, model units, > 0: all of this diameter, to 0.01 %, and less
     std::vector<ShapeFeature::Kind> kinds{};  ///< with `max_diameter`: of these kinds alone; empty: of all
 };
 
