@@ -1,6 +1,7 @@
 #include "method/report_creases.h"
 
 #include "quality/kept_creases.h"
+#include "quality/sliver_source.h"
 #include "vsplit/mrr/progressive_mesh.h"
 
 namespace vsplit {
@@ -15,7 +16,8 @@ constexpr double kHeldBendShare = 0.05;
 
 }  // namespace
 
-Status report_creases(MethodResult& result, const TriangleMesh& source, const MethodRun& run, const ExecutionContext& context) {
+Status report_creases(MethodResult& result, const TriangleMesh& source, const SurfaceIndex* surface, const MethodRun& run,
+                      const ExecutionContext& context) {
     if (!run.extended && result.quality.faces_below_02 == 0) return Done{};
     const TriangleMesh mesh = mesh_at(result.mrr, result.mrr.level_for(result.faces));
     const std::vector<SharpEdge> creases = find_creases(source, face_normals(source), run.prepare.features);
@@ -29,8 +31,10 @@ Status report_creases(MethodResult& result, const TriangleMesh& source, const Me
     if (result.quality.faces_below_02 == 0) return Done{};
     const double distance = run.extended ? run.max_deviation : run.prepare.tolerance;
     const double held = kHeldBendShare * run.prepare.features.angle;
-    result.slivers = explain_slivers(mesh, creases_kept(mesh, source, creases, held, distance),
-                                     {.edge = 0, .max_deviation = run.max_deviation, .crease_angle = run.prepare.features.angle});
+    const std::vector<SharpEdge> kept = creases_kept(mesh, source, creases, held, distance);
+    const SliverOptions options{.edge = 0, .max_deviation = run.max_deviation, .crease_angle = run.prepare.features.angle};
+    result.slivers = surface == nullptr ? explain_slivers(mesh, kept, options)
+                                        : explain_slivers(mesh, kept, options, SliverSource{*surface, source, creases});
     return Done{};
 }
 

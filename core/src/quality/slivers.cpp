@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "base/number_text.h"
 #include "features/mean_edge.h"
 #include "quality/sliver_features.h"
 #include "quality/sliver_mends.h"
+#include "quality/sliver_source.h"
 #include "vsplit/features/face_normals.h"
 #include "vsplit/quality/stretch.h"
 
@@ -64,17 +66,16 @@ struct Finding {
     double value = 0;
 };
 
-Finding find_cause(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals, const SliverOptions& options,
-                   const SliverFace& face) {
-    const SliverFeatures features(mesh, marks);
+Finding find_cause(const MendedMesh& mended, const SliverOptions& options, const SliverFace& face) {
+    const SliverFeatures features(mended.mesh, mended.marks);
     if (const auto angle = features.sharp_corner(face)) return {SliverCause::kSharpCorner, *angle};
     if (const auto gap = features.narrow_strip(face)) return {SliverCause::kNarrowStrip, *gap};
     if (const auto distance = features.close_corners(face)) return {SliverCause::kCloseCorners, *distance};
     if (const auto girth = features.narrow_part(face)) return {SliverCause::kNarrowPart, *girth};
     if (!(options.max_deviation > 0)) return {SliverCause::kUnexplained, face.stretch};
-    const std::optional<double> moved = least_mend(mesh, marks, normals, options.crease_angle, face);
+    const std::optional<double> moved = least_mend(mended, face);
     if (moved && *moved > options.max_deviation) return {SliverCause::kDeviation, *moved};
-    if (!moved && touches_crease(marks, face_of(face.longest))) return {SliverCause::kHeldByCreases, face.stretch};
+    if (!moved && touches_crease(mended.marks, face_of(face.longest))) return {SliverCause::kHeldByCreases, face.stretch};
     return {SliverCause::kUnexplained, face.stretch};
 }
 
@@ -137,17 +138,25 @@ std::string_view sliver_cause_name(SliverCause cause) {
     return "";
 }
 
-std::vector<Slivers> explain_slivers(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,
-                                     const SliverOptions& options) {
+namespace {
+
+std::vector<Slivers> explain(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases, const SliverOptions& options,
+                             const SliverSource* source) {
     const std::vector<std::uint32_t> slivers = slivers_of(mesh);
     if (slivers.empty()) return {};
     CreaseMarks marks(mesh);
     marks.mark(creases);
     const FaceNormals normals = face_normals(mesh);
     const double edge = options.edge > 0 ? options.edge : mean_edge(mesh);
+    MendedMesh mended{mesh, marks, normals, options.crease_angle};
+    std::optional<HeldCreases> held;
+    if (source != nullptr && options.max_deviation > 0) {
+        mended.source = &source->surface;
+        mended.creases = &held.emplace(mesh, marks, source->mesh, source->creases, options.max_deviation);
+    }
     std::array<Slivers, kCauses.size()> groups;
     for (const std::uint32_t f : slivers) {
-        const Finding found = find_cause(mesh, marks, normals, options, describe(mesh, f, edge));
+        const Finding found = find_cause(mended, options, describe(mesh, f, edge));
         add(groups[static_cast<std::size_t>(found.cause)], f, found.value);
     }
     std::vector<Slivers> explained;
@@ -159,6 +168,18 @@ std::vector<Slivers> explain_slivers(const TriangleMesh& mesh, const std::vector
         explained.push_back(std::move(group));
     }
     return explained;
+}
+
+}  // namespace
+
+std::vector<Slivers> explain_slivers(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,
+                                     const SliverOptions& options) {
+    return explain(mesh, creases, options, nullptr);
+}
+
+std::vector<Slivers> explain_slivers(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,
+                                     const SliverOptions& options, const SliverSource& source) {
+    return explain(mesh, creases, options, &source);
 }
 
 }  // namespace vsplit
