@@ -1,14 +1,12 @@
 #include "method/report_creases.h"
 
 #include "quality/kept_creases.h"
+#include "quality/sliver_mends.h"
 #include "quality/sliver_source.h"
 #include "vsplit/mrr/progressive_mesh.h"
 
 namespace vsplit {
 namespace {
-
-/// Of feature_angle: what a source's crease may have been flattened to and still be one in the result.
-constexpr double kBendShare = 0.5;
 
 /// Of feature_angle: the method goes on keeping a crease that it has flattened, down to nothing. Edges that bend by less than
 /// this are within the noise of what lies beside one.
@@ -21,7 +19,7 @@ Status report_creases(MethodResult& result, const TriangleMesh& source, const Su
     if (!run.extended && result.quality.faces_below_02 == 0) return Done{};
     const TriangleMesh mesh = mesh_at(result.mrr, result.mrr.level_for(result.faces));
     const std::vector<SharpEdge> creases = find_creases(source, face_normals(source), run.prepare.features);
-    const double angle = kBendShare * run.prepare.features.angle;
+    const double angle = kCreaseBendShare * run.prepare.features.angle;
     if (run.extended) {
         const DeviationOptions accuracy = accuracy_for(run.limit, bounding_box(source).diagonal());
         const auto deviation = measure_kept_creases(mesh, source, creases, angle, accuracy, context);

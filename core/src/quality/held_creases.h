@@ -11,10 +11,12 @@ namespace vsplit {
 /// Which points of a source's creases lie at which crease of a mesh: a crease may go only where others near it take them.
 class HeldCreases {
 public:
-    /// `creases` are edges of `source`. Points along them, half of `reach` apart, lie at the nearest marked edge of `mesh` that is
-    /// within `reach`. O(creases log creases).
+    /// `creases` are edges of `source`. Points along them, half of `reach` apart, lie at the nearest marked edge of `mesh` that
+    /// is within `reach`. `mesh` need not outlive this. O(creases log creases).
     HeldCreases(const TriangleMesh& mesh, const CreaseMarks& marks, const TriangleMesh& source,
                 const std::vector<SharpEdge>& creases, double reach);
+
+    [[nodiscard]] bool is_crease(HalfEdge h) const { return marks_.marked(h); }
 
     /// Whether `after` are within reach of all points at `before`, creases of the mesh that they replace.
     [[nodiscard]] bool may_become(std::span<const HalfEdge> before, std::span<const SegmentShape> after) const;

@@ -27,6 +27,7 @@ public:
           source_(mended.source),
           creases_(mended.creases),
           crease_cosine_(std::cos(mended.crease_angle * std::numbers::pi / 180)),
+          least_bend_(std::cos(kCreaseBendShare * mended.crease_angle * std::numbers::pi / 180)),
           least_stretch_(std::max(kStretchFloor, stretch + kLeastGain)) {}
 
     [[nodiscard]] std::optional<double> flip(HalfEdge h) const {
@@ -90,27 +91,27 @@ private:
         std::vector<HalfEdge> before;
         std::vector<SegmentShape> after;
         for (const HalfEdge corner : corners) {
-            if (marks_.marked(next(corner))) after.push_back({{at(next(corner)), at(prev(corner))}});
-            if (!marks_.marked(corner)) continue;
-            before.push_back(corner);
+            if (creases_->is_crease(next(corner))) after.push_back({{at(next(corner)), at(prev(corner))}});
+            if (creases_->is_crease(corner)) before.push_back(corner);
             if (corner != h && still_bends(corner, h)) after.push_back({{at(next(h)), at(next(corner))}});
         }
         for (const HalfEdge corner : corners_around(next(h))) {
-            if (marks_.marked(corner) && corner != marks_.twin(h)) after.push_back({{at(corner), at(next(corner))}});
+            if (creases_->is_crease(corner) && corner != marks_.twin(h)) after.push_back({{at(corner), at(next(corner))}});
         }
         return creases_->may_become(before, after);
     }
 
-    /// Whether the crease of `corner`, if it bends, does so when its origin has gone to the target of h.
+    /// Whether the edge of `corner` is a crease when its origin has gone to the target of h.
     [[nodiscard]] bool still_bends(HalfEdge corner, HalfEdge h) const {
-        const Vec3 &left = normals_.normals[face_of(corner)], &right = normals_.normals[face_of(marks_.twin(corner))];
-        if (left.dot(right) >= crease_cosine_) return true;
+        if (marks_.marked(corner) &&
+            normals_.normals[face_of(corner)].dot(normals_.normals[face_of(marks_.twin(corner))]) >= least_bend_)
+            return true;
         const Vec3 one = normal_after(corner, h), other = normal_after(marks_.twin(corner), h);
-        return one.dot(other) < crease_cosine_ * one.norm() * other.norm();
+        return one.dot(other) < least_bend_ * one.norm() * other.norm();
     }
 
-    /// Of the face of `side`, an edge at the origin of h, when that has gone to the target of h; of the face beyond where that one
-    /// vanishes.
+    /// Of the face of `side`, an edge at the origin of h, when that has gone to the target of h; of the face beyond where that
+    /// one vanishes.
     [[nodiscard]] Vec3 normal_after(HalfEdge side, HalfEdge h) const {
         const HalfEdge g = marks_.twin(h);
         if (face_of(side) == face_of(h) || face_of(side) == face_of(g)) {
@@ -132,7 +133,8 @@ private:
         const auto look_at = [&](const Vec3& p) { most = std::max(most, source_->closest(p).squared_distance); };
         for (const TriangleShape& face : faces) {
             const auto& [a, b, c] = face.corners;
-            for (const Vec3& p : {a, b, c, Vec3((a + b + c) / 3), Vec3((a + b) / 2), Vec3((b + c) / 2), Vec3((c + a) / 2)}) look_at(p);
+            for (const Vec3& p : {a, b, c, Vec3((a + b + c) / 3), Vec3((a + b) / 2), Vec3((b + c) / 2), Vec3((c + a) / 2)})
+                look_at(p);
         }
         return std::sqrt(most);
     }
@@ -198,6 +200,7 @@ private:
     const SurfaceIndex* source_;
     const HeldCreases* creases_;
     double crease_cosine_;
+    double least_bend_;     // of what counts as a crease, a cosine
     double least_stretch_;  // of what mends
 };
 

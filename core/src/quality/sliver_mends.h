@@ -10,6 +10,9 @@
 
 namespace vsplit {
 
+/// Of feature_angle: what a source's crease may have been flattened to and still be one in the result.
+inline constexpr double kCreaseBendShare = 0.5;
+
 /// The mesh that slivers are to be mended in, and what that must keep. All must outlive this.
 struct MendedMesh {
     const TriangleMesh& mesh;

@@ -61,7 +61,7 @@ private:
     // Of the vertex at hand:
     std::uint32_t vertex_ = 0;
     Fan star_;
-    Fan::Shape shape_;          // by the last `admits`
+    Fan::Shape shape_;            // by the last `admits`
     Vec3 normal_ = Vec3::Zero();  // of the surface, unit
     bool is_smooth_ = false;      // no crease and no boundary there
     Quadric quadric_;

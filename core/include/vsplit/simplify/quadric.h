@@ -33,8 +33,7 @@ struct Quadric {
 
     /// A x.
     [[nodiscard]] Vec3 times(const Vec3& x) const {
-        return {xx * x.x() + xy * x.y() + xz * x.z(), xy * x.x() + yy * x.y() + yz * x.z(),
-                xz * x.x() + yz * x.y() + zz * x.z()};
+        return {xx * x.x() + xy * x.y() + xz * x.z(), xy * x.x() + yy * x.y() + yz * x.z(), xz * x.x() + yz * x.y() + zz * x.z()};
     }
 
     Quadric& operator+=(const Quadric& other) {
