@@ -218,6 +218,41 @@ TEST(VertexMoverTest, CornersStayAndVerticesOfCreasesKeepToTheirLine) {
     EXPECT_GT(within, inside / 4) << "and so is a plane";
 }
 
+/// A sphere whose vertices have been shifted along it, by up to `share` of an edge.
+TriangleMesh shifted_sphere(double share, Random& random) {
+    TriangleMesh mesh = icosphere(3);
+    const Triangle& t = mesh.faces[0];
+    const double most = share * (mesh.positions[t[0]] - mesh.positions[t[1]]).norm();
+    for (Vec3& p : mesh.positions) {
+        p += most * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        p.normalize();
+    }
+    return mesh;
+}
+
+TEST(VertexMoverTest, VerticesSlideOverACurvedSurfaceWhateverPlanesTheyHaveGathered) {
+    Random random(11);
+    Polishing p(shifted_sphere(0.35, random), 0.02);
+    // As after collapses: each has the planes all around it, which no point but one is near to.
+    const std::vector<Quadric> own = p.state.quadrics;
+    for (std::uint32_t v = 0; v < p.mesh.vertex_count(); ++v) {
+        p.mesh.for_each_outgoing(v, [&](HalfEdge h) { p.state.quadrics[v] += own[p.mesh.target(h)]; });
+    }
+    const auto mean = [&] {
+        double sum = 0;
+        for (const FaceState& f : p.state.faces) sum += f.stretch;
+        return sum / static_cast<double>(p.state.faces.size());
+    };
+    const double before = mean();
+    VertexMover mover(p.mesh, p.state, p.log, {}, p.limits());
+    for (int round = 0; round < 10; ++round) {
+        for (std::uint32_t v = 0; v < p.mesh.vertex_count(); ++v) mover.relax(v);
+    }
+    EXPECT_LT(before, 0.8);
+    EXPECT_GT(mean(), 0.9);
+    for (std::uint32_t v = 0; v < p.mesh.vertex_count(); ++v) EXPECT_NEAR(p.mesh.position(v).norm(), 1, 0.02) << v;
+}
+
 TEST(VertexMoverTest, TheLogLeadsBackToWhereVerticesLay) {
     Polishing p(bumpy_sphere(2, 0.05, 8), 0.05);
     const TriangleMesh finest = p.now();

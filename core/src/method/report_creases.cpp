@@ -1,13 +1,12 @@
 #include "method/report_creases.h"
 
 #include "quality/kept_creases.h"
+#include "quality/sliver_mends.h"
+#include "quality/sliver_source.h"
 #include "vsplit/mrr/progressive_mesh.h"
 
 namespace vsplit {
 namespace {
-
-/// Of feature_angle: what a source's crease may have been flattened to and still be one in the result.
-constexpr double kBendShare = 0.5;
 
 /// Of feature_angle: the method goes on keeping a crease that it has flattened, down to nothing. Edges that bend by less than
 /// this are within the noise of what lies beside one.
@@ -15,11 +14,12 @@ constexpr double kHeldBendShare = 0.05;
 
 }  // namespace
 
-Status report_creases(MethodResult& result, const TriangleMesh& source, const MethodRun& run, const ExecutionContext& context) {
+Status report_creases(MethodResult& result, const TriangleMesh& source, const SurfaceIndex* surface, const MethodRun& run,
+                      const ExecutionContext& context) {
     if (!run.extended && result.quality.faces_below_02 == 0) return Done{};
     const TriangleMesh mesh = mesh_at(result.mrr, result.mrr.level_for(result.faces));
     const std::vector<SharpEdge> creases = find_creases(source, face_normals(source), run.prepare.features);
-    const double angle = kBendShare * run.prepare.features.angle;
+    const double angle = kCreaseBendShare * run.prepare.features.angle;
     if (run.extended) {
         const DeviationOptions accuracy = accuracy_for(run.limit, bounding_box(source).diagonal());
         const auto deviation = measure_kept_creases(mesh, source, creases, angle, accuracy, context);
@@ -29,8 +29,10 @@ Status report_creases(MethodResult& result, const TriangleMesh& source, const Me
     if (result.quality.faces_below_02 == 0) return Done{};
     const double distance = run.extended ? run.max_deviation : run.prepare.tolerance;
     const double held = kHeldBendShare * run.prepare.features.angle;
-    result.slivers = explain_slivers(mesh, creases_kept(mesh, source, creases, held, distance),
-                                     {.edge = 0, .max_deviation = run.max_deviation, .crease_angle = run.prepare.features.angle});
+    const std::vector<SharpEdge> kept = creases_kept(mesh, source, creases, held, distance);
+    const SliverOptions options{.edge = 0, .max_deviation = run.max_deviation, .crease_angle = run.prepare.features.angle};
+    result.slivers = surface == nullptr ? explain_slivers(mesh, kept, options)
+                                        : explain_slivers(mesh, kept, options, SliverSource{*surface, source, creases});
     return Done{};
 }
 

@@ -29,7 +29,7 @@ template <class Policy, class Faces>
     MethodResult result = describe_resolution(std::move(*mrr), faces);
     const Status measured = measure(result, reference, index.get(), run.limit, last, context);
     if (!measured) return measured.error();
-    if (const Status told = report_creases(result, source, run, context); !told) return told.error();
+    if (const Status told = report_creases(result, source, index.get(), run, context); !told) return told.error();
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -19,11 +20,14 @@ constexpr std::size_t kMostFaces = 64;      // around a vertex that may go, as f
 
 class Mender {
 public:
-    Mender(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals, double crease_angle, double stretch)
-        : mesh_(mesh),
-          marks_(marks),
-          normals_(normals),
-          crease_cosine_(std::cos(crease_angle * std::numbers::pi / 180)),
+    Mender(const MendedMesh& mended, double stretch)
+        : mesh_(mended.mesh),
+          marks_(mended.marks),
+          normals_(mended.normals),
+          source_(mended.source),
+          creases_(mended.creases),
+          crease_cosine_(std::cos(mended.crease_angle * std::numbers::pi / 180)),
+          least_bend_(std::cos(kCreaseBendShare * mended.crease_angle * std::numbers::pi / 180)),
           least_stretch_(std::max(kStretchFloor, stretch + kLeastGain)) {}
 
     [[nodiscard]] std::optional<double> flip(HalfEdge h) const {
@@ -41,7 +45,7 @@ public:
             return std::nullopt;
         const Vec3 across = (b - a).cross(d - c);
         const double length = across.norm();
-        return length > 0 ? std::abs(across.dot(c - a)) / length : (c - a).norm();
+        return std::max(length > 0 ? std::abs(across.dot(c - a)) / length : (c - a).norm(), from_source({left, right}));
     }
 
     /// The origin of h goes to its target.
@@ -58,7 +62,8 @@ public:
             if (!mends(after.back(), face_of(corner), kLeastNormalCosine)) return std::nullopt;
             if (!keeps_bend(next(corner), after.back())) return std::nullopt;
         }
-        return distance_between(at(h), before, after);
+        if (creases_ != nullptr && !source_keeps_creases(corners, h)) return std::nullopt;
+        return std::max(distance_between(at(h), before, after), from_source(after));
     }
 
 private:
@@ -79,6 +84,59 @@ private:
         if (normals_.normals[face_of(side)].dot(beyond) >= crease_cosine_) return true;
         const Vec3 normal = normal_of(face);
         return normal.dot(beyond) < crease_cosine_ * normal.norm();
+    }
+
+    /// Whether creases that go with the origin of h leave others where the source has some.
+    [[nodiscard]] bool source_keeps_creases(const std::vector<HalfEdge>& corners, HalfEdge h) const {
+        std::vector<HalfEdge> before;
+        std::vector<SegmentShape> after;
+        for (const HalfEdge corner : corners) {
+            if (creases_->is_crease(next(corner))) after.push_back({{at(next(corner)), at(prev(corner))}});
+            if (creases_->is_crease(corner)) before.push_back(corner);
+            if (corner != h && still_bends(corner, h)) after.push_back({{at(next(h)), at(next(corner))}});
+        }
+        for (const HalfEdge corner : corners_around(next(h))) {
+            if (creases_->is_crease(corner) && corner != marks_.twin(h)) after.push_back({{at(corner), at(next(corner))}});
+        }
+        return creases_->may_become(before, after);
+    }
+
+    /// Whether the edge of `corner` is a crease when its origin has gone to the target of h.
+    [[nodiscard]] bool still_bends(HalfEdge corner, HalfEdge h) const {
+        if (marks_.marked(corner) &&
+            normals_.normals[face_of(corner)].dot(normals_.normals[face_of(marks_.twin(corner))]) >= least_bend_)
+            return true;
+        const Vec3 one = normal_after(corner, h), other = normal_after(marks_.twin(corner), h);
+        return one.dot(other) < least_bend_ * one.norm() * other.norm();
+    }
+
+    /// Of the face of `side`, an edge at the origin of h, when that has gone to the target of h; of the face beyond where that
+    /// one vanishes.
+    [[nodiscard]] Vec3 normal_after(HalfEdge side, HalfEdge h) const {
+        const HalfEdge g = marks_.twin(h);
+        if (face_of(side) == face_of(h) || face_of(side) == face_of(g)) {
+            const HalfEdge beyond = marks_.twin(face_of(side) == face_of(h) ? next(h) : prev(g));
+            return beyond == kNone ? Vec3(normals_.normals[face_of(side)]) : Vec3(normals_.normals[face_of(beyond)]);
+        }
+        TriangleShape face{{at(side), at(next(side)), at(prev(side))}};
+        const std::array<HalfEdge, 3> all{side, next(side), prev(side)};
+        for (std::size_t n = 0; n < all.size(); ++n) {
+            if (origin(mesh_, all[n]) == origin(mesh_, h)) face.corners[n] = at(next(h));
+        }
+        return normal_of(face);
+    }
+
+    /// How far faces are from the source, at their corners, centroids and the middles of their edges.
+    [[nodiscard]] double from_source(const std::vector<TriangleShape>& faces) const {
+        if (source_ == nullptr) return 0;
+        double most = 0;
+        const auto look_at = [&](const Vec3& p) { most = std::max(most, source_->closest(p).squared_distance); };
+        for (const TriangleShape& face : faces) {
+            const auto& [a, b, c] = face.corners;
+            for (const Vec3& p : {a, b, c, Vec3((a + b + c) / 3), Vec3((a + b) / 2), Vec3((b + c) / 2), Vec3((c + a) / 2)})
+                look_at(p);
+        }
+        return std::sqrt(most);
     }
 
     /// As long as twice the area.
@@ -139,21 +197,28 @@ private:
     const TriangleMesh& mesh_;
     const CreaseMarks& marks_;
     const FaceNormals& normals_;
+    const SurfaceIndex* source_;
+    const HeldCreases* creases_;
     double crease_cosine_;
+    double least_bend_;     // of what counts as a crease, a cosine
     double least_stretch_;  // of what mends
 };
 
 }  // namespace
 
-std::optional<double> least_mend(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals,
-                                 double crease_angle, const SliverFace& face) {
-    const Mender mender(mesh, marks, normals, crease_angle, face.stretch);
-    std::optional<double> least = mender.flip(face.longest);
+std::optional<double> least_mend(const MendedMesh& mended, const SliverFace& face) {
+    const Mender mender(mended, face.stretch);
+    std::optional<double> least;
     const auto take = [&](const std::optional<double>& moved) {
         if (moved && (!least || *moved < *least)) least = moved;
     };
-    take(mender.collapse(face.shortest));
-    if (marks.twin(face.shortest) != kNone) take(mender.collapse(marks.twin(face.shortest)));
+    for (const HalfEdge h : {face.longest, next(face.longest), prev(face.longest)}) {
+        const HalfEdge twin = mended.marks.twin(h);
+        if (twin == kNone) continue;  // a boundary stays
+        take(mender.flip(h));
+        take(mender.collapse(h));
+        take(mender.collapse(twin));
+    }
     return least;
 }
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "base/number_text.h"
 #include "features/mean_edge.h"
 #include "quality/sliver_features.h"
 #include "quality/sliver_mends.h"
+#include "quality/sliver_source.h"
 #include "vsplit/features/face_normals.h"
 #include "vsplit/quality/stretch.h"
 
@@ -45,36 +47,24 @@ SliverFace describe(const TriangleMesh& mesh, std::uint32_t f, double edge) {
     return face;
 }
 
-/// Whether a corner of the face lies on a crease.
-bool touches_crease(const CreaseMarks& marks, std::uint32_t f) {
-    for (const HalfEdge first : {3 * f, 3 * f + 1, 3 * f + 2}) {
-        HalfEdge spoke = first;
-        do {
-            if (marks.marked(spoke)) return true;
-            spoke = marks.twin(prev(spoke));
-        } while (spoke != kNone && spoke != first);
-        if (spoke == kNone) return true;  // a boundary
-    }
-    return false;
-}
-
 /// A cause, and by how much.
 struct Finding {
     SliverCause cause = SliverCause::kUnexplained;
     double value = 0;
 };
 
-Finding find_cause(const TriangleMesh& mesh, const CreaseMarks& marks, const FaceNormals& normals, const SliverOptions& options,
-                   const SliverFace& face) {
-    const SliverFeatures features(mesh, marks);
+/// `creaseless`: the same without creases to keep.
+Finding find_cause(const MendedMesh& mended, const MendedMesh& creaseless, const SliverOptions& options, const SliverFace& face) {
+    const SliverFeatures features(mended.mesh, mended.marks);
     if (const auto angle = features.sharp_corner(face)) return {SliverCause::kSharpCorner, *angle};
     if (const auto gap = features.narrow_strip(face)) return {SliverCause::kNarrowStrip, *gap};
     if (const auto distance = features.close_corners(face)) return {SliverCause::kCloseCorners, *distance};
     if (const auto girth = features.narrow_part(face)) return {SliverCause::kNarrowPart, *girth};
     if (!(options.max_deviation > 0)) return {SliverCause::kUnexplained, face.stretch};
-    const std::optional<double> moved = least_mend(mesh, marks, normals, options.crease_angle, face);
-    if (moved && *moved > options.max_deviation) return {SliverCause::kDeviation, *moved};
-    if (!moved && touches_crease(marks, face_of(face.longest))) return {SliverCause::kHeldByCreases, face.stretch};
+    const std::optional<double> moved = least_mend(mended, face);
+    const std::optional<double> at_least = moved ? moved : least_mend(creaseless, face);
+    if (at_least && *at_least > options.max_deviation) return {SliverCause::kDeviation, *at_least};
+    if (at_least && !moved) return {SliverCause::kHeldByCreases, face.stretch};
     return {SliverCause::kUnexplained, face.stretch};
 }
 
@@ -99,8 +89,8 @@ std::string message_of(const Slivers& s, double max_deviation) {
             return faces + (one ? "is" : "are") + " held by max_deviation, " + number_text(max_deviation) +
                    ": mending moves the surface by " + values;
         case SliverCause::kHeldByCreases:
-            return faces + "of stretch " + values + (one ? " has" : " have") +
-                   " corners on creases, and no flip or collapse mends " + (one ? "it" : "them") + " that keeps those";
+            return faces + "of stretch " + values + (one ? " has" : " have") + " flips or collapses that would mend " +
+                   (one ? "it" : "them") + ", and each takes a crease from where the source has one";
         case SliverCause::kUnexplained:
             return faces + "of stretch " + values + (one ? " is" : " are") +
                    " forced by no crease and no bound that was looked at";
@@ -137,17 +127,30 @@ std::string_view sliver_cause_name(SliverCause cause) {
     return "";
 }
 
-std::vector<Slivers> explain_slivers(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,
-                                     const SliverOptions& options) {
+namespace {
+
+std::vector<Slivers> explain(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases, const SliverOptions& options,
+                             const SliverSource* source) {
     const std::vector<std::uint32_t> slivers = slivers_of(mesh);
     if (slivers.empty()) return {};
-    CreaseMarks marks(mesh);
+    const CreaseMarks none(mesh);
+    CreaseMarks marks = none;
     marks.mark(creases);
     const FaceNormals normals = face_normals(mesh);
     const double edge = options.edge > 0 ? options.edge : mean_edge(mesh);
+    MendedMesh mended{mesh, marks, normals, options.crease_angle};
+    CreaseMarks bends = marks;
+    std::optional<HeldCreases> held;
+    if (source != nullptr && options.max_deviation > 0) {
+        bends.mark(find_sharp_edges(mesh, normals, {.angle = kCreaseBendShare * options.crease_angle, .weight = 1}));
+        mended.source = &source->surface;
+        mended.creases = &held.emplace(mesh, bends, source->mesh, source->creases, options.max_deviation);
+    }
+    constexpr double kAnyBend = 180;
+    const MendedMesh creaseless{mesh, none, normals, kAnyBend, mended.source};
     std::array<Slivers, kCauses.size()> groups;
     for (const std::uint32_t f : slivers) {
-        const Finding found = find_cause(mesh, marks, normals, options, describe(mesh, f, edge));
+        const Finding found = find_cause(mended, creaseless, options, describe(mesh, f, edge));
         add(groups[static_cast<std::size_t>(found.cause)], f, found.value);
     }
     std::vector<Slivers> explained;
@@ -159,6 +162,18 @@ std::vector<Slivers> explain_slivers(const TriangleMesh& mesh, const std::vector
         explained.push_back(std::move(group));
     }
     return explained;
+}
+
+}  // namespace
+
+std::vector<Slivers> explain_slivers(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,
+                                     const SliverOptions& options) {
+    return explain(mesh, creases, options, nullptr);
+}
+
+std::vector<Slivers> explain_slivers(const TriangleMesh& mesh, const std::vector<SharpEdge>& creases,
+                                     const SliverOptions& options, const SliverSource& source) {
+    return explain(mesh, creases, options, &source);
 }
 
 }  // namespace vsplit

@@ -10,7 +10,7 @@ namespace {
 /// Limits, from one point of an edge of the dense mesh to the next: what lies between is at most half of that further, and so
 /// within the bound of which the limit is three quarters (`run_policy`).
 constexpr double kStep = 2.0 / 3;
-constexpr double kMostPointsAnEdge = 32;
+constexpr double kMostPointsAnEdge = 1024;  // an edge so long has points further apart
 
 double square_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
     const Vec3 along = b - a;

@@ -27,6 +27,7 @@ constexpr std::uint32_t kReportEvery = 1024;
 constexpr double kCheckpointShare = 0.8;
 constexpr double kFarCheckpointShare = 0.6;  // while far from what is asked for: most moves are made there
 constexpr std::uint32_t kFar = 2;            // times the faces asked for
+constexpr double kNearShare = 1.05;          // of the faces asked for, polished as long: then slivers left there can still go
 constexpr double kStuckShare = 0.98;         // of the faces at the last checkpoint: no use going on
 constexpr double kBestShare = 0.97;          // of the best mean stretch so far: no floor asks for more
 constexpr int kDenseRelaxations = 3;
@@ -155,7 +156,7 @@ private:
             if (Status done = collapse_in_phases(goal); !done) return done;
             // Polishing makes some more collapses valid, but ever fewer.
             const bool stuck = has_collapses_above(goal) && mesh_.live_faces() > kStuckShare * faces;
-            const bool asked = goal == input_.faces || (stuck && mesh_.live_faces() > input_.faces);
+            const bool asked = is_near_asked(goal) || (stuck && mesh_.live_faces() > input_.faces);
             polish(asked ? kFinalRelaxations : kCheckpointRelaxations, asked ? kFinalLifts : 0, asked);
             if (context_.cancelled()) return ExecutionContext::cancelled_error();
             if (stuck) break;
@@ -202,13 +203,20 @@ private:
         return below && reached_floor_ && mesh_.live_faces() <= input_.floor_from;
     }
 
-    /// A fifth of the faces fewer, or more while far from what is asked for; and the resolution asked for in any case.
+    [[nodiscard]] bool is_near_asked(std::uint32_t faces) const {
+        return faces >= input_.faces && faces <= kNearShare * input_.faces;
+    }
+
+    /// A fifth of the faces fewer, or more while far from what is asked for; and the resolution asked for in any case, after one
+    /// near it.
     [[nodiscard]] std::uint32_t next_checkpoint(std::uint32_t faces) const {
         const bool may_end_here = input_.mean_floor > 0 && faces <= input_.floor_from;
         const double share = faces / kFar > input_.faces && !may_end_here ? kFarCheckpointShare : kCheckpointShare;
         const auto goal = static_cast<std::uint32_t>(share * faces);
         const bool passes_asked = has_collapses_above(input_.faces) && goal < 1.1 * input_.faces;
-        return std::max(passes_asked ? input_.faces : goal, input_.faces_min);
+        if (!passes_asked) return std::max(goal, input_.faces_min);
+        const auto near = static_cast<std::uint32_t>(kNearShare * input_.faces);
+        return std::max(has_collapses_above(near) ? near : input_.faces, input_.faces_min);
     }
 
     [[nodiscard]] Status collapse_in_phases(std::uint32_t faces) {

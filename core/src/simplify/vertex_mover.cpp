@@ -33,12 +33,18 @@ bool VertexMover::gather_star(std::uint32_t v) {
     if (mesh_.valence(v) > Fan::kCapacity || state_.border.hold(v) > Hold::kAlong) return false;
     vertex_ = v;
     std::size_t t = 0;
+    bool is_on_crease = false;
     mesh_.for_each_outgoing(v, [&](HalfEdge h) {
         const std::uint32_t r = mesh_.target(h);
+        is_on_crease |= mesh_.is_crease(h);
         star_.put(t++, r, mesh_.position(r), face_of(h), state_.faces[face_of(h)].normal);
     });
     const std::uint32_t ghost = state_.border.ghost_beside(v);
     ghost == kNone ? star_.close(t) : star_.open_at(ghost, t);
+    normal_ = Vec3::Zero();
+    for (std::size_t n = 0; n < star_.size(); ++n) normal_ += star_.old_normal(n);
+    normal_.normalize();
+    is_smooth_ = ghost == kNone && !is_on_crease;
     shape_ = star_.shape_at(mesh_.position(v));
     quadric_ = state_.quadrics[v];
     error_limit_ = mean_error_limit(quadric_, limits_.tolerance * limits_.tolerance);
@@ -46,6 +52,15 @@ bool VertexMover::gather_star(std::uint32_t v) {
     stretch_limit_ = shape_.stretch_min >= limits_.bounds.min_stretch ? limits_.bounds.min_stretch : 0;
     if (limits_.bounds.shaped()) excess_before_ = star_.excess(limits_.bounds, mesh_.position(v));
     return true;
+}
+
+/// The place nearest to `wanted`, relative to the centre, that is as near to the planes gathered as a vertex gets. Where the
+/// surface is smooth that is along its normal: all directions of a curved one count as directions across, and the minimum of
+/// its quadric would hold the vertex where it is.
+Vec3 VertexMover::onto_surface(const Vec3& wanted) const {
+    const double steepness = is_smooth_ ? normal_.dot(quadric_.times(normal_)) : 0;
+    if (!(steepness > 0)) return project_to_minimum(quadric_, wanted);
+    return wanted - normal_ * (normal_.dot(quadric_.half_gradient(wanted)) / steepness);
 }
 
 /// `wanted`, or of it what lies along the boundary where the star is open.
@@ -115,7 +130,7 @@ void VertexMover::relax(std::uint32_t v) {
     double least = star_.defect() - kLeastGain;
     Vec3 best = here;
     for (const Vec3& wanted : {target, Vec3(star_.centroid() - limits_.centre), Vec3((target + here) / 2)}) {
-        const Vec3 place = project_to_minimum(quadric_, along_boundary(here, wanted));
+        const Vec3 place = onto_surface(along_boundary(here, wanted));
         if (!admits(place) || !(star_.defect() < least)) continue;
         least = star_.defect();
         best = place;
@@ -137,10 +152,8 @@ bool VertexMover::mend(std::uint32_t v) {
 
 template <class Value>
 bool VertexMover::search(std::uint32_t v, Value value_at, double goal) {
-    Vec3 normal = Vec3::Zero();
-    for (std::size_t t = 0; t < star_.size(); ++t) normal += star_.old_normal(t);
-    const Vec3 u = normal.unitOrthogonal();
-    const Vec3 w = normal.normalized().cross(u);
+    const Vec3 u = normal_.unitOrthogonal();
+    const Vec3 w = normal_.cross(u);
     const Vec3 here = mesh_.position(v) - limits_.centre;
     Vec3 best = here;
     double most = value_at(mesh_.position(v));
@@ -148,7 +161,7 @@ bool VertexMover::search(std::uint32_t v, Value value_at, double goal) {
     for (int halving = 0; halving < kHalvings;) {
         bool better = false;
         for (const auto& [x, y] : kPattern) {
-            const Vec3 place = project_to_minimum(quadric_, along_boundary(best, best + step * (x * u + y * w)));
+            const Vec3 place = onto_surface(along_boundary(best, best + step * (x * u + y * w)));
             if (!admits(place)) continue;
             const double value = value_at(place + limits_.centre);
             if (!(value > most + kLeastGain || (value >= goal && most < goal))) continue;

@@ -39,6 +39,7 @@ public:
 
 private:
     [[nodiscard]] bool gather_star(std::uint32_t v);
+    [[nodiscard]] Vec3 onto_surface(const Vec3& wanted) const;
     [[nodiscard]] Vec3 along_boundary(const Vec3& here, const Vec3& wanted) const;
     [[nodiscard]] Vec3 ideal() const;
     [[nodiscard]] bool admits(const Vec3& place);
@@ -60,7 +61,9 @@ private:
     // Of the vertex at hand:
     std::uint32_t vertex_ = 0;
     Fan star_;
-    Fan::Shape shape_;  // by the last `admits`
+    Fan::Shape shape_;            // by the last `admits`
+    Vec3 normal_ = Vec3::Zero();  // of the surface, unit
+    bool is_smooth_ = false;      // no crease and no boundary there
     Quadric quadric_;
     double error_limit_ = 0;
     double size_limit_ = 0;

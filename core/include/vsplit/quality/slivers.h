@@ -17,7 +17,7 @@ enum class SliverCause {
     kCloseCorners,   ///< two corners of creases (ends, meetings, turns over 40 degrees) as close
     kNarrowPart,     ///< the part itself, a tube or rod, is as narrow there: so far around, across the face's longest edge
     kDeviation,      ///< each flip or collapse that would mend it moves the surface by more than max_deviation
-    kHeldByCreases,  ///< it has a corner on a crease, and no flip or collapse mends it that keeps creases
+    kHeldByCreases,  ///< flips or collapses would mend it, but each costs a crease or takes it from where the source has one
     kUnexplained,    ///< nothing of these
 };
 

@@ -29,9 +29,11 @@ struct Quadric {
     [[nodiscard]] double trace() const { return xx + yy + zz; }
 
     /// A x + b: half the gradient at x.
-    [[nodiscard]] Vec3 half_gradient(const Vec3& x) const {
-        return {xx * x.x() + xy * x.y() + xz * x.z() + b.x(), xy * x.x() + yy * x.y() + yz * x.z() + b.y(),
-                xz * x.x() + yz * x.y() + zz * x.z() + b.z()};
+    [[nodiscard]] Vec3 half_gradient(const Vec3& x) const { return times(x) + b; }
+
+    /// A x.
+    [[nodiscard]] Vec3 times(const Vec3& x) const {
+        return {xx * x.x() + xy * x.y() + xz * x.z(), xy * x.x() + yy * x.y() + yz * x.z(), xz * x.x() + yz * x.y() + zz * x.z()};
     }
 
     Quadric& operator+=(const Quadric& other) {
