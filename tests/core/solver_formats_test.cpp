@@ -168,6 +168,16 @@ TEST(SolverFormatsTest, NamesOfSetsFitSolvers) {
     EXPECT_EQ(write_mesh(mesh, MeshFormat::kMshAscii).find("gone"), std::string::npos);
 }
 
+TEST(SolverFormatsTest, AConcaveQuadrilateralIsCutWhereItDoesNotFold) {
+    const TriangleMesh arrow =
+        must_read("*NODE\n1, 0, 0, 0\n2, 2, -1, 0\n3, 0.5, 0, 0\n4, 2, 1, 0\n*ELEMENT, TYPE=S4\n1, 2, 3, 4, 1\n");
+    ASSERT_EQ(arrow.face_count(), 2U);
+    for (const Triangle& t : arrow.faces) {
+        const Vec3 normal = (arrow.positions[t[1]] - arrow.positions[t[0]]).cross(arrow.positions[t[2]] - arrow.positions[t[0]]);
+        EXPECT_GT(normal.z(), 0);
+    }
+}
+
 TEST(SolverFormatsTest, AnElementIsDefinedOnce) {
     const Expected<ReadResult> twice =
         read("*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=S3\n7, 1, 2, 3\n8, 1, 2, 3\n7, 2, 3, 1\n");

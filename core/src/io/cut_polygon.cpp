@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 namespace vsplit {
@@ -142,6 +143,25 @@ std::vector<Triangle> cut_polygon(std::span<const Vec3> corners) {
     const bool folds = std::any_of(fan.begin(), fan.end(),
                                    [&](const Triangle& t) { return turn(points[t[0]], points[t[1]], points[t[2]]) < -least; });
     return folds ? EarCutter(points, least).run() : fan;
+}
+
+Status unfold_fan(const std::vector<Vec3>& positions, std::span<Triangle> fan, Place place) {
+    if (fan.size() < 2) return Done{};
+    std::vector<std::uint32_t> corners = {fan[0][0], fan[0][1]};
+    for (const Triangle& face : fan) corners.push_back(face[2]);
+    std::vector<Vec3> points;
+    points.reserve(corners.size());
+    for (const std::uint32_t corner : corners) points.push_back(positions[corner]);
+    const std::vector<Triangle> triangles = cut_polygon(points);
+    if (triangles.empty()) {
+        return read_error(Cause::kLimitExceeded, place,
+                          "a face of " + std::to_string(corners.size()) +
+                              " corners is not convex and takes too long to cut; cut it into triangles first");
+    }
+    std::transform(triangles.begin(), triangles.end(), fan.begin(), [&](const Triangle& t) {
+        return Triangle{corners[t[0]], corners[t[1]], corners[t[2]]};
+    });
+    return Done{};
 }
 
 }  // namespace vsplit

@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "io/read_error.h"
+#include "vsplit/base/expected.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
@@ -13,5 +15,8 @@ namespace vsplit {
 /// fan. \return empty for a polygon that would take too long: many thousands of corners, most of them in each other's way. \pre
 /// at least 3 corners. O(corners) for convex ones, at most 2,000 tests a corner for others.
 [[nodiscard]] std::vector<Triangle> cut_polygon(std::span<const Vec3> corners);
+
+/// Cuts the polygon that `fan` is the fan of, in place. \return LIMIT_EXCEEDED at `place` where that would take too long.
+[[nodiscard]] Status unfold_fan(const std::vector<Vec3>& positions, std::span<Triangle> fan, Place place);
 
 }  // namespace vsplit

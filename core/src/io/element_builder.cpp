@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "io/cut_polygon.h"
 #include "io/mesh_builder.h"
 #include "io/text_lines.h"
 
@@ -96,6 +97,18 @@ Status ElementBuilder::number_corners() {
             face[i] = *index;
         }
     }
+    return cut_elements();
+}
+
+/// Elements of more than three corners are fans up to here.
+Status ElementBuilder::cut_elements() {
+    for (std::size_t f = 0, end = 0; f < corners_.size(); f = end) {
+        for (end = f + 1; end < corners_.size() && is_one_element(f, end); ++end) {
+        }
+        if (Status cut = unfold_fan(mesh_.positions, std::span(mesh_.faces).subspan(f, end - f), {unit_, corners_[f].place});
+            !cut)
+            return cut;
+    }
     return Done{};
 }
 
@@ -135,8 +148,7 @@ Status ElementBuilder::collect_members(std::uint32_t number, std::vector<std::ui
 
 Status ElementBuilder::sort_elements() {
     for (std::uint32_t f = 0; f < corners_.size(); ++f) {
-        const bool same = f > 0 && corners_[f].element == corners_[f - 1].element && corners_[f].place == corners_[f - 1].place;
-        if (!same) elements_.push_back({corners_[f].element, f});
+        if (f == 0 || !is_one_element(f - 1, f)) elements_.push_back({corners_[f].element, f});
     }
     const auto by_id = [](const Node& l, const Node& r) { return l.id < r.id; };
     if (!std::is_sorted(elements_.begin(), elements_.end(), by_id)) std::stable_sort(elements_.begin(), elements_.end(), by_id);

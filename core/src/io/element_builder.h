@@ -81,6 +81,11 @@ private:
     [[nodiscard]] Status sort_nodes();
     [[nodiscard]] std::optional<std::uint32_t> find_node(std::int64_t id) const;
     [[nodiscard]] Status number_corners();
+    [[nodiscard]] Status cut_elements();
+    /// Two triangles of one element, not of two with the same number.
+    [[nodiscard]] bool is_one_element(std::size_t f, std::size_t g) const {
+        return corners_[f].element == corners_[g].element && corners_[f].place == corners_[g].place;
+    }
     [[nodiscard]] Status count_member(std::size_t place);
     [[nodiscard]] Status find_others();
     [[nodiscard]] Status collect_members(std::uint32_t set, std::vector<std::uint32_t>& members);

@@ -83,22 +83,7 @@ Status MeshBuilder::add_polygon(std::span<const std::uint32_t> corners, Place pl
 }
 
 Status MeshBuilder::cut(const Polygon& polygon) {
-    const auto faces = std::span(mesh_.faces).subspan(polygon.first_face, polygon.corners - 2);
-    std::vector<std::uint32_t> corners = {faces[0][0], faces[0][1]};
-    for (const Triangle& face : faces) corners.push_back(face[2]);
-    std::vector<Vec3> positions;
-    positions.reserve(corners.size());
-    for (const std::uint32_t corner : corners) positions.push_back(mesh_.positions[corner]);
-    const std::vector<Triangle> triangles = cut_polygon(positions);
-    if (triangles.empty()) {
-        return read_error(Cause::kLimitExceeded, polygon.place,
-                          "a face of " + std::to_string(corners.size()) +
-                              " corners is not convex and takes too long to cut; cut it into triangles first");
-    }
-    std::transform(triangles.begin(), triangles.end(), faces.begin(), [&](const Triangle& t) {
-        return Triangle{corners[t[0]], corners[t[1]], corners[t[2]]};
-    });
-    return Done{};
+    return unfold_fan(mesh_.positions, std::span(mesh_.faces).subspan(polygon.first_face, polygon.corners - 2), polygon.place);
 }
 
 Expected<TriangleMesh> MeshBuilder::take() {
