@@ -32,7 +32,8 @@ bool drop_hanging(const TriangleMesh& mesh, const std::vector<std::uint32_t>& ne
         bool changed = false;
         for (const std::uint32_t f : needles) {
             if (dropped[f]) continue;
-            const std::array<std::uint32_t, 3> edges = {edge_of[3 * f], edge_of[3 * f + 1], edge_of[3 * f + 2]};
+            const std::size_t h = std::size_t{3} * f;
+            const std::array<std::uint32_t, 3> edges = {edge_of[h], edge_of[h + 1], edge_of[h + 2]};
             if (std::count_if(edges.begin(), edges.end(), [&](std::uint32_t e) { return faces_at[e] % 2 != 0; }) < 2) continue;
             for (const std::uint32_t e : edges) --faces_at[e];
             dropped[f] = changed = any = true;
