@@ -1,7 +1,9 @@
 // Regions and sets all the way: files, weld, repair, subdivision, both methods at every resolution, stored representations.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 
 #include "spatial/surface_index.h"
@@ -136,11 +138,21 @@ TEST(RegionsOfMeshesTest, ComeBackFromPlyObjAndStl) {
     }
     EXPECT_EQ(read(write_mesh(mesh, MeshFormat::kStlBinary)).regions, mesh.regions);
     const TriangleMesh grouped = read(write_mesh(mesh, MeshFormat::kObj));
-    EXPECT_EQ(grouped.faces, mesh.faces);
+    // A group after the other, each with its faces in order.
+    EXPECT_EQ(grouped.positions, mesh.positions);
     ASSERT_EQ(grouped.sets.size(), 3U);
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        const std::string& name = grouped.sets[grouped.regions[f] - 1].name;
-        EXPECT_EQ(name, mesh.regions[f] == 4 ? "left" : mesh.regions[f] == 9 ? "right" : "region_7");
+    const auto faces_in = [](const TriangleMesh& of, std::uint32_t region) {
+        std::vector<Triangle> faces;
+        for (std::uint32_t f = 0; f < of.face_count(); ++f) {
+            if (of.regions[f] == region) faces.push_back(of.faces[f]);
+        }
+        return faces;
+    };
+    for (const auto& [region, name] : std::map<std::uint32_t, std::string>{{4, "left"}, {9, "right"}, {7, "region_7"}}) {
+        const auto is_it = [&n = name](const FaceSet& set) { return set.name == n; };
+        const auto set = std::find_if(grouped.sets.begin(), grouped.sets.end(), is_it);
+        ASSERT_NE(set, grouped.sets.end()) << name;
+        EXPECT_EQ(faces_in(grouped, set->regions.at(0)), faces_in(mesh, region)) << name;
     }
     const TriangleMesh solids = read(write_mesh(mesh, MeshFormat::kStlAscii));
     ASSERT_EQ(solids.sets.size(), 3U);
