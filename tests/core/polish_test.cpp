@@ -70,7 +70,7 @@ TEST(PolishTest, WhatIsLeftOutWouldHaveStayed) {
         Guarded lazy(mesh), literal(mesh);
         Polisher polisher(lazy.parts.mesh, lazy.parts.state, lazy.parts.log, lazy.guards(), lazy.limits());
         for (const std::uint64_t seed : {11, 12, 13}) {
-            polisher.polish(5, 2, ExecutionContext());
+            polisher.polish(5, VertexMover::Moves::kAll, 2, ExecutionContext());
             polish_literally(literal, 5, 2);
             expect_same(lazy, literal);
             push_about(lazy, seed);

@@ -253,6 +253,30 @@ TEST(VertexMoverTest, VerticesSlideOverACurvedSurfaceWhateverPlanesTheyHaveGathe
     for (std::uint32_t v = 0; v < p.mesh.vertex_count(); ++v) EXPECT_NEAR(p.mesh.position(v).norm(), 1, 0.02) << v;
 }
 
+TEST(VertexMoverTest, FewerMovesAreWorthARecordWhereTheSurfaceBendsAndAsManyWhereItIsFlat) {
+    const auto moved = [](Polishing&& p, VertexMover::Moves moves) {
+        VertexMover mover(p.mesh, p.state, p.log, {}, p.limits());
+        int count = 0;
+        for (std::uint32_t v = 0; v < p.mesh.vertex_count(); ++v) {
+            const Vec3 before = p.mesh.position(v);
+            mover.relax(v, moves);
+            count += p.mesh.position(v) == before ? 0 : 1;
+        }
+        return count;
+    };
+    const auto ball = [&] {
+        Random random(11);
+        return Polishing(shifted_sphere(0.1, random), 0.02);
+    };
+    const int all = moved(ball(), VertexMover::Moves::kAll);
+    const int worthwhile = moved(ball(), VertexMover::Moves::kWorthwhile);
+    EXPECT_GT(all, 200);
+    EXPECT_LT(worthwhile, all / 2);
+    const auto cube = [] { return Polishing(jittered_cube(8, 0.15, 2), 0.02); };
+    EXPECT_GT(moved(cube(), VertexMover::Moves::kAll), 100);
+    EXPECT_EQ(moved(cube(), VertexMover::Moves::kWorthwhile), moved(cube(), VertexMover::Moves::kAll));
+}
+
 TEST(VertexMoverTest, TheLogLeadsBackToWhereVerticesLay) {
     Polishing p(bumpy_sphere(2, 0.05, 8), 0.05);
     const TriangleMesh finest = p.now();

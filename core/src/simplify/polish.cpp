@@ -36,9 +36,10 @@ void Polisher::move_all(const ExecutionContext& context, Start& last, Move move)
     last = start;
 }
 
-void Polisher::polish(int relaxations, int lifts, const ExecutionContext& context) {
+void Polisher::polish(int relaxations, VertexMover::Moves moves, int lifts, const ExecutionContext& context) {
+    Start& relaxed = relaxed_.at(static_cast<std::size_t>(moves));
     for (int round = 0; round < relaxations && !context.cancelled(); ++round) {
-        move_all(context, relaxed_, [this](std::uint32_t v) { mover_.relax(v); });
+        move_all(context, relaxed, [this, moves](std::uint32_t v) { mover_.relax(v, moves); });
     }
     for (int round = 0; round < lifts && !context.cancelled(); ++round) {
         move_all(context, lifted_, [this](std::uint32_t v) { mover_.lift(v, kLiftGoal); });

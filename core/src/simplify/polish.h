@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "simplify/edge_flipper.h"
@@ -19,8 +20,9 @@ public:
           mover_(mesh, state, log, guards, limits),
           mender_(mesh, state, flipper_, mover_, limits) {}
 
-    /// `relaxations` rounds for the mean shape, then `lifts` for the worst faces. Stops early when cancelled. O(faces * rounds).
-    void polish(int relaxations, int lifts, const ExecutionContext& context);
+    /// `relaxations` rounds of `moves` for the mean shape, then `lifts` for the worst faces. Stops early when cancelled.
+    /// O(faces * rounds).
+    void polish(int relaxations, VertexMover::Moves moves, int lifts, const ExecutionContext& context);
 
     /// Mends what breaks a bound; see Mender.
     void mend(int rounds, bool may_move, const ExecutionContext& context) { mender_.mend(rounds, may_move, context); }
@@ -42,7 +44,8 @@ private:
     EdgeFlipper flipper_;
     VertexMover mover_;
     Mender mender_;
-    Start relaxed_, lifted_;
+    std::array<Start, 2> relaxed_;  // by Moves
+    Start lifted_;
 };
 
 }  // namespace vsplit

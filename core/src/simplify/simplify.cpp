@@ -108,10 +108,16 @@ private:
         return false;
     }
 
-    /// Vertices of too many edges are seldom mended later: faces around them have no room.
-    void polish(int relaxations, int lifts, bool asked) {
-        polisher_.polish(relaxations, lifts, context_);
-        if (asked || bounds_need_mending()) polisher_.mend(asked ? kFinalMends : kCheckpointMends, true, context_);
+    /// At the resolution asked for, or the last one.
+    void polish_asked() {
+        polisher_.polish(kFinalRelaxations, VertexMover::Moves::kAll, kFinalLifts, context_);
+        polisher_.mend(kFinalMends, true, context_);
+    }
+
+    /// On the way there and beyond. Vertices of too many edges are seldom mended later: faces around them have no room.
+    void polish_passing(int relaxations) {
+        polisher_.polish(relaxations, VertexMover::Moves::kWorthwhile, 0, context_);
+        if (bounds_need_mending()) polisher_.mend(kCheckpointMends, true, context_);
     }
 
     [[nodiscard]] std::unique_ptr<DeviationGuard> make_guard() const {
@@ -149,7 +155,7 @@ private:
 
     /// From checkpoint to checkpoint, so that no resolution is far from a polished one, until shape suffers.
     [[nodiscard]] Status collapse_and_polish() {
-        polish(kDenseRelaxations, 0, false);
+        polish_passing(kDenseRelaxations);
         double mean = mean_stretch(), best = mean;
         for (std::uint32_t faces = mesh_.live_faces(); has_collapses_above(input_.faces_min);) {
             const std::uint32_t goal = next_checkpoint(faces);
@@ -157,13 +163,13 @@ private:
             // Polishing makes some more collapses valid, but ever fewer.
             const bool stuck = has_collapses_above(goal) && mesh_.live_faces() > kStuckShare * faces;
             const bool asked = is_near_asked(goal) || (stuck && mesh_.live_faces() > input_.faces);
-            polish(asked ? kFinalRelaxations : kCheckpointRelaxations, asked ? kFinalLifts : 0, asked);
+            asked ? polish_asked() : polish_passing(kCheckpointRelaxations);
             if (context_.cancelled()) return ExecutionContext::cancelled_error();
             if (stuck) break;
             const double before = std::exchange(mean, mean_stretch());
             best = std::max(best, mean);
             if (would_fall_below(std::min(input_.mean_floor, kBestShare * best), before, mean)) {
-                if (mesh_.live_faces() > input_.faces) polish(kFinalRelaxations, kFinalLifts, true);
+                if (mesh_.live_faces() > input_.faces) polish_asked();
                 break;
             }
             faces = mesh_.live_faces();

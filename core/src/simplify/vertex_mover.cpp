@@ -14,6 +14,11 @@ namespace {
 
 constexpr double kEquilateralHeight = 0.8660254037844386;  // of edge 1
 
+// Where the surface bends, a vertex can nearly always go somewhere that is a little better, and each move is a record: with the
+// gain that counts elsewhere the moves of a scan take half as many bytes again, for a mean stretch 0.01 better.
+constexpr double kLeastGainOnCurves = 0.014;
+constexpr double kLeastBend = 1e-3;  // share of a quadric across the normal: normals differ by some 2 degrees
+
 // The pattern of `lift`: eight directions, steps from this share of the longest edge down by halves.
 constexpr double kFirstStep = 0.2;
 constexpr int kHalvings = 5;
@@ -44,9 +49,10 @@ bool VertexMover::gather_star(std::uint32_t v) {
     normal_ = Vec3::Zero();
     for (std::size_t n = 0; n < star_.size(); ++n) normal_ += star_.old_normal(n);
     normal_.normalize();
-    is_smooth_ = ghost == kNone && !is_on_crease;
     shape_ = star_.shape_at(mesh_.position(v));
     quadric_ = state_.quadrics[v];
+    steepness_ = ghost == kNone && !is_on_crease ? normal_.dot(quadric_.times(normal_)) : 0;
+    is_curved_ = steepness_ > 0 && quadric_.trace() > (1 + kLeastBend) * steepness_;
     error_limit_ = mean_error_limit(quadric_, limits_.tolerance * limits_.tolerance);
     size_limit_ = std::max(limits_.max_size, shape_.size_max);
     stretch_limit_ = shape_.stretch_min >= limits_.bounds.min_stretch ? limits_.bounds.min_stretch : 0;
@@ -58,9 +64,8 @@ bool VertexMover::gather_star(std::uint32_t v) {
 /// surface is smooth that is along its normal: all directions of a curved one count as directions across, and the minimum of
 /// its quadric would hold the vertex where it is.
 Vec3 VertexMover::onto_surface(const Vec3& wanted) const {
-    const double steepness = is_smooth_ ? normal_.dot(quadric_.times(normal_)) : 0;
-    if (!(steepness > 0)) return project_to_minimum(quadric_, wanted);
-    return wanted - normal_ * (normal_.dot(quadric_.half_gradient(wanted)) / steepness);
+    if (!(steepness_ > 0)) return project_to_minimum(quadric_, wanted);
+    return wanted - normal_ * (normal_.dot(quadric_.half_gradient(wanted)) / steepness_);
 }
 
 /// `wanted`, or of it what lies along the boundary where the star is open.
@@ -123,11 +128,11 @@ bool VertexMover::put(std::uint32_t v, const Vec3& place) {
     return true;
 }
 
-void VertexMover::relax(std::uint32_t v) {
+void VertexMover::relax(std::uint32_t v, Moves moves) {
     if (!gather_star(v)) return;
     const Vec3 here = mesh_.position(v) - limits_.centre;
     const Vec3 target = ideal() - limits_.centre;
-    double least = star_.defect() - kLeastGain;
+    double least = star_.defect() - (moves == Moves::kWorthwhile && is_curved_ ? kLeastGainOnCurves : kLeastGain);
     Vec3 best = here;
     for (const Vec3& wanted : {target, Vec3(star_.centroid() - limits_.centre), Vec3((target + here) / 2)}) {
         const Vec3 place = onto_surface(along_boundary(here, wanted));

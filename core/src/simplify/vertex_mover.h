@@ -27,8 +27,11 @@ public:
           creases_(mesh, state, guards.creases, limits.crease_cosine),
           limits_(limits) {}
 
+    /// Which moves `relax` makes: all that better the shape, or those that are worth a record.
+    enum class Moves { kAll, kWorthwhile };
+
     /// Towards where the faces around v are nearest to equilateral, in the mean of squares. O(valence).
-    void relax(std::uint32_t v);
+    void relax(std::uint32_t v, Moves moves = Moves::kAll);
 
     /// Where a face around v has a stretch under `goal`, searches nearby for a place that raises the least one. O(valence).
     void lift(std::uint32_t v, double goal);
@@ -63,7 +66,8 @@ private:
     Fan star_;
     Fan::Shape shape_;            // by the last `admits`
     Vec3 normal_ = Vec3::Zero();  // of the surface, unit
-    bool is_smooth_ = false;      // no crease and no boundary there
+    double steepness_ = 0;        // of the quadric along the normal; 0 on creases and boundaries
+    bool is_curved_ = false;      // elsewhere, and the planes gathered are not one
     Quadric quadric_;
     double error_limit_ = 0;
     double size_limit_ = 0;
