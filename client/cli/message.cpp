@@ -4,6 +4,7 @@
 #include <map>
 #include <string_view>
 
+#include "cli/arguments.h"
 #include "cli/number_text.h"
 #include "cli/outcome.h"
 #include "wire/features.h"
@@ -168,6 +169,13 @@ std::string controlled_surface_note(const v1::Representation& made) {
     return "vsplit: note: the middle nodes lie on the mesh that control was given, of which the .vsplit file knows no more; "
            "write "
            "them by `vsplit control` itself to have them on the surface that a mesh of `improve` was made of\n";
+}
+
+std::string sent_surface_note(const std::string& input) {
+    if (!is_representation_file(input)) return "";
+    return "vsplit: note: the middle nodes lie on the mesh that was sent, one resolution of the .vsplit file; without a server "
+           "they lie "
+           "on its finest\n";
 }
 
 }  // namespace vsplit::cli

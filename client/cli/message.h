@@ -46,4 +46,7 @@ namespace vsplit::cli {
 /// whose finest resolution is the source's surface.
 [[nodiscard]] std::string controlled_surface_note(const v1::Representation& made);
 
+/// Where a server puts middle nodes of what it makes of a .vsplit file; empty for other files.
+[[nodiscard]] std::string sent_surface_note(const std::string& input);
+
 }  // namespace vsplit::cli

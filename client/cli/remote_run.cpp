@@ -163,7 +163,7 @@ private:
         if (arguments_.order != 2) return Outcome{*std::move(made), receiver_.mesh(), std::move(whole)};
         // The surface that mid-side nodes are put on is with the server.
         if (Status downloaded = download(made->id(), made->faces()); !downloaded) return downloaded.error();
-        return Outcome{*std::move(made), {}, std::move(whole)};
+        return Outcome{*std::move(made), {}, std::move(whole), {}, sent_surface_note(arguments_.input)};
     }
 
     /// All that has come; which file it was made from is known where this command has sent it.

@@ -179,6 +179,33 @@ TEST(SolverFormatsTest, AConcaveQuadrilateralIsCutWhereItDoesNotFold) {
     }
 }
 
+TEST(SolverFormatsTest, ASetOfAllElementsSaysNothingUnlessItIsOfSome) {
+    const std::string nodes = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n";
+    const TriangleMesh all = must_read(
+        nodes + "*ELEMENT, TYPE=S3, ELSET=EALL\n1, 1, 2, 3\n2, 1, 3, 4\n*SURFACE, NAME=TOP, TYPE=ELEMENT\nEALL, SPOS\n");
+    EXPECT_EQ(members(all), (std::map<std::string, std::vector<std::uint32_t>>{{"TOP", {0, 1}}}));
+    const TriangleMesh half = must_read(nodes + "*ELEMENT, TYPE=S3, ELSET=Eall\n1, 1, 2, 3\n*ELEMENT, TYPE=S3\n2, 1, 3, 4\n");
+    EXPECT_EQ(members(half), (std::map<std::string, std::vector<std::uint32_t>>{{"Eall", {0}}}));
+    EXPECT_TRUE(must_read(nodes + "*ELEMENT, TYPE=S3, ELSET=Eall\n1, 1, 2, 3\n2, 1, 3, 4\n").regions.empty());
+}
+
+TEST(SolverFormatsTest, BulkDataEndWhereTheySay) {
+    const std::string cards = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nCTRIA3,1,1,1,2,3\n";
+    EXPECT_EQ(must_read("BEGIN BULK\n" + cards + "ENDDATA\n").face_count(), 1U);
+    EXPECT_EQ(must_read(cards).face_count(), 1U);  // a part that others include
+    const Expected<ReadResult> cut = read("BEGIN BULK\n" + cards);
+    ASSERT_FALSE(cut);
+    EXPECT_EQ(cut.error().cause, Cause::kTruncatedInput);
+}
+
+TEST(SolverFormatsTest, RegionsWithoutNamesStaySoInGmshFiles) {
+    TriangleMesh mesh = grouped_torus();
+    mesh.sets = {{"ends", {1, 3}}};
+    const TriangleMesh same = must_read(write_mesh(mesh, MeshFormat::kMsh));
+    EXPECT_EQ(same.regions, mesh.regions);
+    EXPECT_EQ(same.sets, mesh.sets);
+}
+
 TEST(SolverFormatsTest, AnElementIsDefinedOnce) {
     const Expected<ReadResult> twice =
         read("*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=S3\n7, 1, 2, 3\n8, 1, 2, 3\n7, 2, 3, 1\n");

@@ -85,6 +85,16 @@ std::string binary_grid(const std::vector<std::int32_t>& cells) {
            raw<std::int32_t>({5, 5});
 }
 
+TEST(VtkFilesTest, ArraysThatAreNoNumbersAreReadOverAndMinusOneIsNoRegion) {
+    const std::string regions = "region 1 2 int\n4 5\n";
+    for (const std::string& other : {std::string("names 1 2 string\nleft%20side\nright\n"), std::string("marks 1 2 bit\n0 1\n"),
+                                     std::string("small 1 2 signed_char\n-3 7\n")}) {
+        EXPECT_EQ(must_read(kTwo + "CELL_DATA 2\nFIELD FieldData 2\n" + other + regions).regions, kRegions) << other;
+    }
+    EXPECT_EQ(must_read(kTwo + "CELL_DATA 2\nSCALARS CellEntityIds int 1\nLOOKUP_TABLE default\n-1 5\n").regions,
+              (std::vector<std::uint32_t>{0, 5}));
+}
+
 TEST(VtkFilesTest, BinaryDataOfPointsMayComeFirst) {
     const std::string data = "POINT_DATA 4\nFIELD FieldData 1\nt 1 4 double\n" + raw<double>({1, 2, 3, 4}) +
                              "SCALARS s float\nLOOKUP_TABLE mine\n" + raw<float>({1, 2, 3, 4}) + "LOOKUP_TABLE mine 1\n" +

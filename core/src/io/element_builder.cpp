@@ -189,6 +189,17 @@ Status ElementBuilder::fill_sets() {
     return Done{};
 }
 
+void ElementBuilder::leave_set_of_all() {
+    const std::optional<std::size_t> found = set_of_all_.empty() ? std::nullopt : find_set(set_of_all_);
+    if (!found) return;
+    const auto number = static_cast<std::uint32_t>(*found);
+    const auto is_in = [&](const std::vector<std::uint32_t>& sets) {
+        return std::binary_search(sets.begin(), sets.end(), number);
+    };
+    if (!std::all_of(sets_of_.begin(), sets_of_.end(), is_in)) return;
+    for (std::vector<std::uint32_t>& sets : sets_of_) sets.erase(std::lower_bound(sets.begin(), sets.end(), number));
+}
+
 void ElementBuilder::make_regions() {
     std::map<std::vector<std::uint32_t>, std::uint32_t> regions{{{}, 0}};
     mesh_.sets.clear();
@@ -221,6 +232,7 @@ Expected<TriangleMesh> ElementBuilder::take() {
     if (Status sorted = sort_elements(); !sorted) return sorted.error();
     if (!sets_.empty()) {
         if (Status filled = fill_sets(); !filled) return filled.error();
+        leave_set_of_all();
         make_regions();
     }
     drop_empty_regions();

@@ -40,6 +40,9 @@ public:
     /// The elements of another set are in the set, those it gets later too.
     void add_set_to_set(const std::string& name, const std::string& other, Place place);
 
+    /// A set of this name says nothing where all faces are in it, as decks have one for sections to name; then there is none.
+    void ignore_set_of_all(std::string_view name) { set_of_all_ = name; }
+
     /// Names a region given with elements.
     void name_region(const std::string& name, std::uint32_t region);
 
@@ -92,6 +95,7 @@ private:
     [[nodiscard]] Status sort_elements();
     [[nodiscard]] Status put_into_set(const Range& range, std::uint32_t number);
     [[nodiscard]] Status fill_sets();
+    void leave_set_of_all();
     void make_regions();
     void drop_empty_regions();
     [[nodiscard]] Error error_at(Cause cause, std::size_t place, const std::string& what) const {
@@ -111,6 +115,7 @@ private:
     static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
     std::vector<std::uint32_t> collected_for_;         // by set: the last one it was collected for
     std::map<std::string, std::size_t> region_names_;  // and their places in the mesh's sets
+    std::string set_of_all_;
     std::uint64_t memberships_ = 0;
     std::uint64_t solids_ = 0;
 };

@@ -46,8 +46,11 @@ void PhysicalGroups::apply(TriangleMesh& mesh) const {
     for (const std::uint32_t c : used) {
         for (const std::uint32_t group : combinations_[c]) {
             regions_of[group].push_back(region[c]);
-            if (combinations_[c].size() > 1) called.try_emplace(group, "physical_" + std::to_string(group));
         }
+    }
+    // Without a name, one that is a region needs no set.
+    for (const auto& [group, regions] : regions_of) {
+        if (regions != std::vector<std::uint32_t>{group}) called.try_emplace(group, "physical_" + std::to_string(group));
     }
     for (const auto& [group, name] : called) {
         if (const auto regions = regions_of.find(group); regions != regions_of.end())

@@ -22,7 +22,7 @@ public:
 
     /// Regions of faces, which are combinations, become numbers of groups: of the one group where it is one, of the first that no
     /// other combination has where there are several, else a number that no group has. Groups with a name are sets, as are those
-    /// without one (`physical_7`) that overlap another. O(faces + combinations * groups).
+    /// without one (`physical_7`) that are no region of their own. O(faces + combinations * groups).
     void apply(TriangleMesh& mesh) const;
 
 private:

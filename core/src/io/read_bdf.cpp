@@ -52,6 +52,7 @@ public:
 
     Expected<TriangleMesh> read() {
         const std::size_t begin = line_of_begin();
+        bool ended = false;
         while (lines_.next()) {
             std::string_view line = lines_.line();
             if (line.starts_with('$')) {
@@ -60,10 +61,18 @@ public:
             }
             line = line.substr(0, line.find('$'));
             if (trimmed(line).empty() || lines_.number() <= begin) continue;
-            if (upper_case(trimmed(line).substr(0, 7)) == "ENDDATA") break;
+            if (upper_case(trimmed(line).substr(0, 7)) == "ENDDATA") {
+                ended = true;
+                break;
+            }
             if (Status taken = take_line(line); !taken) return taken.error();
         }
         if (Status used = use_card(); !used) return used.error();
+        // Parts that others include have neither.
+        if (begin != 0 && !ended)
+            return read_error(
+                Cause::kTruncatedInput, at_line(lines_.number()),
+                "the file ends without the ENDDATA that belongs to its BEGIN BULK of line " + std::to_string(begin));
         if (Status basic = check_default_system(); !basic) return basic.error();
         Expected<TriangleMesh> mesh = builder_.take();
         // One property, and that the first, says nothing: a file needs some.

@@ -31,6 +31,7 @@ public:
         if (done) done = place_instance();
         if (done) done = read_lonely_part();
         if (!done) return done.error();
+        builder_.ignore_set_of_all(kAllElements);
         Expected<TriangleMesh> mesh = builder_.take();
         if (!mesh) {
             Error error = mesh.error();
@@ -96,7 +97,7 @@ private:
     Status begin_elements() {
         type_ = upper_case(keyword_.value("TYPE"));
         const std::string set = keyword_.value("ELSET");
-        elset_ = set.empty() || equals_ignoring_case(set, kAllElements) ? std::string() : assembly_.set_name(scope_, set);
+        elset_ = set.empty() ? std::string() : assembly_.set_name(scope_, set);
         if (type_.empty()) return malformed("*ELEMENT needs a TYPE");
         const std::optional<InpElement> element = inp_element(type_);
         if (!element) {

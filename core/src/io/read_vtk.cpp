@@ -22,7 +22,8 @@ std::optional<Kind> kind_of(std::string_view name) {
         std::string_view name;
         Kind kind;
     };
-    static constexpr std::array<Known, 15> kKnown = {{{"char", Kind::kInt8},
+    static constexpr std::array<Known, 16> kKnown = {{{"char", Kind::kInt8},
+                                                      {"signed_char", Kind::kInt8},
                                                       {"unsigned_char", Kind::kUint8},
                                                       {"short", Kind::kInt16},
                                                       {"unsigned_short", Kind::kUint16},
@@ -233,13 +234,22 @@ private:
         const std::string name(in_.word());
         std::string_view rest = in_.line();
         const std::string_view type = next_word(rest);
-        const std::optional<Kind> kind = kind_of(type);
-        if (!kind) return in_.fail(Cause::kMalformedInput, "expected a type of numbers, " + found(type));
         const auto components = static_cast<std::uint64_t>(parse_integer(next_word(rest)).value_or(1));
         if (components < 1 || components > 4) return in_.fail(Cause::kMalformedInput, "expected 1 to 4 components");
         in_.expect("LOOKUP_TABLE");
         static_cast<void>(in_.word());
-        take_data(name, *kind, tuples_, components);
+        take_array(name, type, tuples_, components);
+    }
+
+    void take_array(const std::string& name, std::string_view type, std::uint64_t tuples, std::uint64_t components) {
+        if (const std::optional<Kind> kind = kind_of(type)) return take_data(name, *kind, tuples, components);
+        if (components > kMostComponents || tuples > in_.left())
+            return in_.fail(Cause::kTruncatedInput, "an array is longer than the file");
+        const std::uint64_t count = tuples * components;
+        if (type == "bit") return take_data("", binary_ ? Kind::kUint8 : Kind::kInt8, binary_ ? (count + 7) / 8 : count, 1);
+        if (type != "string" || binary_) return in_.fail(Cause::kUnsupported, "an array of " + quoted(type) + " is not read");
+        static_cast<void>(in_.line());
+        for (std::uint64_t i = 0; i < count && in_.ok() && in_.left() > 0; ++i) static_cast<void>(in_.line());
     }
 
     /// As bytes they are of 0 to 255, as text of 0 to 1.
@@ -267,9 +277,7 @@ private:
             const std::uint64_t components = in_.count(Kind::kInt64, "a number of components", in_.left());
             const std::uint64_t tuples = in_.count(Kind::kInt64, "a number of tuples", in_.left());
             const std::string_view type = in_.word();
-            const std::optional<Kind> kind = kind_of(type);
-            if (!kind) return in_.fail(Cause::kUnsupported, "an array of " + quoted(type) + " is not read");
-            take_data(tuples == tuples_ ? name : "", *kind, tuples, components);
+            take_array(tuples == tuples_ ? name : "", type, tuples, components);
         }
     }
 

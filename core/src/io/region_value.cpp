@@ -17,9 +17,9 @@ bool is_region_name(std::string_view name) {
 
 Expected<std::uint32_t> region_of(double value, Place place) {
     constexpr double kLargest = 4294967294;
+    if (value < 0 && value == std::trunc(value)) return 0U;
     if (value >= 0 && value <= kLargest && value == std::trunc(value)) return static_cast<std::uint32_t>(value);
-    return read_error(Cause::kMalformedInput, place,
-                      "expected a region, an integer from 0 to 4294967294, found " + to_text(value));
+    return read_error(Cause::kMalformedInput, place, "expected a region, an integer up to 4294967294, found " + to_text(value));
 }
 
 }  // namespace vsplit

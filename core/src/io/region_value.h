@@ -12,7 +12,8 @@ namespace vsplit {
 /// "PhysicalIds", "gmsh:physical", "CellEntityIds", "label", "material_id" and the like, in any case.
 [[nodiscard]] bool is_region_name(std::string_view name);
 
-/// The region that a number of such an array is. \return MALFORMED_INPUT for what is no integer from 0 to 2^32 - 2.
+/// The region that a number of such an array is; negative ones are how Gmsh and others say that there is none.
+/// \return MALFORMED_INPUT for what is no integer up to 2^32 - 2.
 [[nodiscard]] Expected<std::uint32_t> region_of(double value, Place place);
 
 }  // namespace vsplit

@@ -51,7 +51,8 @@ bool VertexMover::gather_star(std::uint32_t v) {
     normal_.normalize();
     shape_ = star_.shape_at(mesh_.position(v));
     quadric_ = state_.quadrics[v];
-    steepness_ = ghost == kNone && !is_on_crease ? normal_.dot(quadric_.times(normal_)) : 0;
+    // A vertex that goes far takes what sizes are allowed from its neighbours, which is too late where those grow fast.
+    steepness_ = ghost == kNone && !is_on_crease && !state_.sizes.binding() ? normal_.dot(quadric_.times(normal_)) : 0;
     is_curved_ = steepness_ > 0 && quadric_.trace() > (1 + kLeastBend) * steepness_;
     error_limit_ = mean_error_limit(quadric_, limits_.tolerance * limits_.tolerance);
     size_limit_ = std::max(limits_.max_size, shape_.size_max);

@@ -66,7 +66,7 @@ private:
     Fan star_;
     Fan::Shape shape_;            // by the last `admits`
     Vec3 normal_ = Vec3::Zero();  // of the surface, unit
-    double steepness_ = 0;        // of the quadric along the normal; 0 on creases and boundaries
+    double steepness_ = 0;        // of the quadric along the normal; 0 on creases and boundaries, and with bounds on sizes
     bool is_curved_ = false;      // elsewhere, and the planes gathered are not one
     Quadric quadric_;
     double error_limit_ = 0;
