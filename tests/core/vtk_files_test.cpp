@@ -116,7 +116,7 @@ TEST(VtkFilesTest, WhatIsWrongIsNamedWhereItStands) {
     expect_error(kGrid + "CELLS 2 9\n3 0 1 2\n4 1 3 2 0\nCELL_TYPES 2\n5\n5\n", Cause::kMalformedInput,
                  "line 10: cell 1 of type 5 has 4 points; expected 3");
     expect_error(kTwo + "CELL_DATA 2\nSCALARS region float\nLOOKUP_TABLE default\n1\n1.5\n", Cause::kMalformedInput,
-                 "line 17: expected a region, an integer from 0 to 4294967294, found 1.5");
+                 "line 17: expected a region, an integer up to 4294967294, found 1.5");
     expect_error(kGrid + "CELLS 2 8\n3 0 1 2\n3 1 3 2\nCELL_TYPES 0\n", Cause::kMalformedInput, "0 types are given for 2 cells");
     expect_error(kGrid + "CELLS 2 8\n3 0 1 2\n3 1 3 2\n", Cause::kTruncatedInput, "the file ends before CELL_TYPES");
 }
