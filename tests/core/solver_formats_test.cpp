@@ -206,6 +206,25 @@ TEST(SolverFormatsTest, RegionsWithoutNamesStaySoInGmshFiles) {
     EXPECT_EQ(same.sets, mesh.sets);
 }
 
+TEST(SolverFormatsTest, PartitionsOfGmshKeepTheirGroupsAndTotalsAreChecked) {
+    const std::string msh =
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 7 \"skin\"\n$EndPhysicalNames\n"
+        "$Entities\n0 0 1 0\n1 0 0 0 1 1 0 1 7 0\n$EndEntities\n"
+        "$PartitionedEntities\n2\n0\n0 0 2 0\n2 2 1 1 1 0 0 0 1 1 0 1 7 0\n3 2 1 1 2 0 0 0 1 1 0 1 7 0\n"
+        "$EndPartitionedEntities\n"
+        "$Nodes\n1 4 1 4\n2 2 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n"
+        "$Elements\n2 2 1 2\n2 2 2 1\n1 1 2 3\n2 3 2 1\n2 1 3 4\n$EndElements\n";
+    EXPECT_EQ(members(must_read(msh)), (std::map<std::string, std::vector<std::uint32_t>>{{"skin", {0, 1}}}));
+    for (const auto& [right, wrong] : {std::pair<std::string, std::string>{"$Nodes\n1 4 ", "$Nodes\n1 5 "},
+                                       std::pair<std::string, std::string>{"$Elements\n2 2 ", "$Elements\n2 9 "}}) {
+        std::string other = msh;
+        other.replace(other.find(right), right.size(), wrong);
+        const Expected<ReadResult> refused = read(other);
+        ASSERT_FALSE(refused) << wrong;
+        EXPECT_NE(refused.error().message.find("are announced"), std::string::npos) << refused.error().message;
+    }
+}
+
 TEST(SolverFormatsTest, AnElementIsDefinedOnce) {
     const Expected<ReadResult> twice =
         read("*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=S3\n7, 1, 2, 3\n8, 1, 2, 3\n7, 2, 3, 1\n");

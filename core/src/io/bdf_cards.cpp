@@ -12,18 +12,19 @@ using Names = std::span<const std::string_view>;
 /// Shells, and what is meshed in a plane: axisymmetric, plane strain and stress.
 constexpr std::array<std::string_view, 10> kTriangles = {"CTRIA3", "CTRIA6",  "CTRIAR",  "CTRIAX",  "CTRAX3",
                                                          "CTRAX6", "CPLSTN3", "CPLSTN6", "CPLSTS3", "CPLSTS6"};
-constexpr std::array<std::string_view, 12> kQuadrilaterals = {"CQUAD4",  "CQUAD8",  "CQUADR",  "CQUAD",   "CSHEAR",  "CQUADX",
-                                                              "CQUADX4", "CQUADX8", "CPLSTN4", "CPLSTN8", "CPLSTS4", "CPLSTS8"};
+constexpr std::array<std::string_view, 13> kQuadrilaterals = {"CQUAD4",  "CQUAD8",  "CQUAD9",  "CQUADR",  "CQUAD",
+                                                              "CSHEAR",  "CQUADX",  "CQUADX4", "CQUADX8", "CPLSTN4",
+                                                              "CPLSTN8", "CPLSTS4", "CPLSTS8"};
 constexpr std::array<std::string_view, 7> kSolids = {"CTETRA", "CHEXA", "CPENTA", "CPYRAM", "CHEXCZ", "CPENTCZ", "CIHEX"};
 
 /// How the names of other cards begin: beams, rods, springs, dampers, masses, gaps, welds, what lies on the faces of others
 /// (heat, absorbers); systems of coordinates, sets, contact, aerodynamics.
-constexpr std::array<std::string_view, 50> kWithoutFace = {
-    "CAABSF", "CAERO",   "CAMPBLL", "CAXIF", "CBAR",   "CBEAM",   "CBEND",   "CBUSH",  "CCONEAX", "CCRSFIL",
-    "CDAMP",  "CDUM",    "CELAS",   "CFAST", "CFLUID", "CFILLET", "CGAP",    "CGEN",   "CHAC",    "CHBDY",
-    "CIFHEX", "CIFPENT", "CINTC",   "CLOAD", "CMASS",  "CMREBAI", "CMREBAR", "CNGRET", "CONCTL",  "CONM",
-    "CONROD", "CONTACT", "CONTRLT", "CONV",  "CORD",   "CRAC3D",  "CREEP",   "CROD",   "CSEAM",   "CSET",
-    "CSLOT",  "CSSCHD",  "CSUP",    "CTUBE", "CVISC",  "CWELD",   "CWSEAM",  "CYAX",   "CYJOIN",  "CYSYM"};
+constexpr std::array<std::string_view, 57> kWithoutFace = {
+    "CBUTT",  "CDSMETH", "CMSMETH", "CNTSTB",  "CONTPRM", "CSPOT",  "CSPR",   "CAABSF", "CAERO",   "CAMPBLL", "CAXIF",   "CBAR",
+    "CBEAM",  "CBEND",   "CBUSH",   "CCONEAX", "CCRSFIL", "CDAMP",  "CDUM",   "CELAS",  "CFAST",   "CFLUID",  "CFILLET", "CGAP",
+    "CGEN",   "CHAC",    "CHBDY",   "CIFHEX",  "CIFPENT", "CINTC",  "CLOAD",  "CMASS",  "CMREBAI", "CMREBAR", "CNGRET",  "CONCTL",
+    "CONM",   "CONROD",  "CONTACT", "CONTRLT", "CONV",    "CORD",   "CRAC3D", "CREEP",  "CROD",    "CSEAM",   "CSET",    "CSLOT",
+    "CSSCHD", "CSUP",    "CTUBE",   "CVISC",   "CWELD",   "CWSEAM", "CYAX",   "CYJOIN", "CYSYM"};
 
 bool is_one_of(std::string_view name, Names names) { return std::find(names.begin(), names.end(), name) != names.end(); }
 

@@ -69,10 +69,12 @@ private:
         if (name == "$MeshFormat") return read_format();
         if (!name.starts_with('$')) return in_.fail(Cause::kMalformedInput, "expected the name of a section, " + found(name));
         const std::string end = "$End" + std::string(name.substr(1));
-        const bool known = name == "$PhysicalNames" || name == "$Entities" || name == "$Nodes" || name == "$Elements";
+        // 2.2 knows entities as well, of another form, and says the groups of each element beside it.
+        const bool entities = is_4() && (name == "$Entities" || name == "$PartitionedEntities");
+        const bool known = name == "$PhysicalNames" || entities || name == "$Nodes" || name == "$Elements";
         if (known && version_ == 0) return in_.fail(Cause::kMalformedInput, "'$MeshFormat' must come first, " + found(name));
         if (name == "$PhysicalNames") read_physical_names();
-        if (name == "$Entities") with_numbers([&] { read_entities(); });
+        if (entities) with_numbers([&] { read_entities(name == "$PartitionedEntities"); });
         if (name == "$Nodes") is_4() ? with_numbers([&] { read_nodes_4(); }) : read_nodes_2();
         if (name == "$Elements") is_4() ? with_numbers([&] { read_elements_4(); }) : read_elements_2();
         if (!in_.ok()) return;
@@ -125,16 +127,29 @@ private:
         }
     }
 
-    void read_entities() {
+    /// Those of partitions say in front which they are, and which entity they are a part of.
+    void read_entities(bool partitioned) {
+        if (partitioned) {
+            static_cast<void>(in_.count(size_kind_, "a number of partitions", kMost));
+            const std::uint64_t ghosts = in_.count(size_kind_, "a number of ghost entities", kMost);
+            for (std::uint64_t i = 0; i < 2 * ghosts && in_.ok(); ++i)
+                static_cast<void>(in_.integer(Kind::kInt32, "a ghost entity"));
+        }
         std::array<std::uint64_t, 4> counts{};
         for (std::uint64_t& count : counts) count = in_.count(size_kind_, "a number of entities", kMost);
         for (std::size_t dimension = 0; dimension < 4; ++dimension) {
-            for (std::uint64_t i = 0; i < counts[dimension] && in_.ok(); ++i) read_entity(dimension);
+            for (std::uint64_t i = 0; i < counts[dimension] && in_.ok(); ++i) read_entity(dimension, partitioned);
         }
     }
 
-    void read_entity(std::size_t dimension) {
+    void read_entity(std::size_t dimension, bool partitioned) {
         const std::int64_t tag = in_.integer(Kind::kInt32, "an entity's tag");
+        if (partitioned) {
+            static_cast<void>(in_.integer(Kind::kInt32, "a parent's dimension"));
+            static_cast<void>(in_.integer(Kind::kInt32, "a parent's tag"));
+            const std::uint64_t parts = in_.count(size_kind_, "a number of partitions", kMost);
+            for (std::uint64_t i = 0; i < parts && in_.ok(); ++i) static_cast<void>(in_.integer(Kind::kInt32, "a partition"));
+        }
         for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) static_cast<void>(in_.number(Kind::kFloat64, "a bound of an entity"));
         const std::uint64_t physical = in_.count(size_kind_, "a number of physical tags", kMost);
         std::vector<std::uint32_t> groups;
@@ -159,14 +174,15 @@ private:
     }
 
     void read_nodes_4() {
-        const std::uint64_t blocks = in_.count(size_kind_, "a number of blocks", kMost);
-        for (int i = 0; i < 3; ++i) static_cast<void>(in_.count(size_kind_, "a count or tag of nodes", kMost));
+        const auto [blocks, announced] = read_counts();
+        std::uint64_t read = 0;
         std::vector<std::int64_t> tags;
         for (std::uint64_t block = 0; block < blocks && in_.ok(); ++block) {
             const std::int64_t dimension = in_.integer(Kind::kInt32, "an entity's dimension");
             static_cast<void>(in_.integer(Kind::kInt32, "an entity's tag"));
             const bool parametric = in_.count(Kind::kInt32, "whether nodes are parametric", 1) == 1;
             const std::uint64_t count = in_.count(size_kind_, "a number of nodes", in_.left());
+            read += count;
             tags.clear();
             for (std::uint64_t i = 0; i < count && in_.ok(); ++i)
                 tags.push_back(static_cast<std::int64_t>(in_.count(size_kind_, "a node's tag", kMost)));
@@ -176,16 +192,38 @@ private:
                     static_cast<void>(in_.number(Kind::kFloat64, "a parameter of a node"));
             }
         }
+        check_total(read, announced, "nodes");
+    }
+
+    struct Counts {
+        std::uint64_t blocks = 0;
+        std::uint64_t all = 0;
+    };
+
+    /// Blocks, then all they hold, then the least and largest tag.
+    Counts read_counts() {
+        Counts counts;
+        counts.blocks = in_.count(size_kind_, "a number of blocks", kMost);
+        counts.all = in_.count(size_kind_, "a total of the blocks", kMost);
+        for (int i = 0; i < 2; ++i) static_cast<void>(in_.count(size_kind_, "a least or largest tag", kMost));
+        return counts;
+    }
+
+    void check_total(std::uint64_t read, std::uint64_t announced, const char* what) {
+        if (!in_.ok() || read == announced) return;
+        in_.fail(Cause::kMalformedInput,
+                 std::to_string(announced) + " " + what + " are announced, and the blocks have " + std::to_string(read));
     }
 
     void read_elements_4() {
-        const std::uint64_t blocks = in_.count(size_kind_, "a number of blocks", kMost);
-        for (int i = 0; i < 3; ++i) static_cast<void>(in_.count(size_kind_, "a count or tag of elements", kMost));
+        const auto [blocks, announced] = read_counts();
+        std::uint64_t read = 0;
         for (std::uint64_t block = 0; block < blocks && in_.ok(); ++block) {
             static_cast<void>(in_.integer(Kind::kInt32, "an entity's dimension"));
             const std::int64_t entity = in_.integer(Kind::kInt32, "an entity's tag");
             const std::optional<MshElement> type = read_type();
             const std::uint64_t count = in_.count(size_kind_, "a number of elements", in_.left());
+            read += count;
             const auto combination = combination_of_.find(entity);
             const std::uint32_t region = combination == combination_of_.end() ? 0 : combination->second;
             for (std::uint64_t i = 0; i < count && in_.ok(); ++i) {
@@ -194,6 +232,7 @@ private:
                 if (in_.ok() && type->corners > 0) add_face(face, region);
             }
         }
+        check_total(read, announced, "elements");
     }
 
     std::optional<MshElement> read_type() {
