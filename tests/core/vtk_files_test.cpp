@@ -49,8 +49,9 @@ TEST(VtkFilesTest, DataBesideTheRegionsIsReadOver) {
     const std::string points =
         "POINT_DATA 4\nSCALARS t float\nLOOKUP_TABLE default\n1 2 3 4\nVECTORS v float\n1 2 3 4 5 6 7 8 9 10 11 12\n";
     for (const std::string& data :
-         {"CELL_DATA 2\n" + region, points + "CELL_DATA 2\n" + region, "CELL_DATA 2\n" + region + points,
-          "CELL_DATA 2\nVECTORS v double\n1 2 3 4 5 6\n" + region, "CELL_DATA 2\nNORMALS n double\n1 2 3 4 5 6\n" + region,
+         {"CELL_DATA 2\n" + region, std::string(points).append("CELL_DATA 2\n").append(region),
+          std::string("CELL_DATA 2\n").append(region).append(points), "CELL_DATA 2\nVECTORS v double\n1 2 3 4 5 6\n" + region,
+          "CELL_DATA 2\nNORMALS n double\n1 2 3 4 5 6\n" + region,
           "CELL_DATA 2\nTENSORS n double\n1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9\n" + region,
           "CELL_DATA 2\nSCALARS s float 1\nLOOKUP_TABLE mine\n1 2\nLOOKUP_TABLE mine 2\n1 0 0 1 0 0 1 1\n" + region,
           "CELL_DATA 2\nCOLOR_SCALARS c 3\n1 0 0 0 0.5 0\n" + region,
@@ -86,10 +87,12 @@ std::string binary_grid(const std::vector<std::int32_t>& cells) {
 }
 
 TEST(VtkFilesTest, ArraysThatAreNoNumbersAreReadOverAndMinusOneIsNoRegion) {
-    const std::string regions = "region 1 2 int\n4 5\n";
+    const std::string fields = kTwo + "CELL_DATA 2\nFIELD FieldData 2\n";
     for (const std::string& other : {std::string("names 1 2 string\nleft%20side\nright\n"), std::string("marks 1 2 bit\n0 1\n"),
                                      std::string("small 1 2 signed_char\n-3 7\n")}) {
-        EXPECT_EQ(must_read(kTwo + "CELL_DATA 2\nFIELD FieldData 2\n" + other + regions).regions, kRegions) << other;
+        std::string file = fields;
+        file.append(other).append("region 1 2 int\n4 5\n");
+        EXPECT_EQ(must_read(file).regions, kRegions) << other;
     }
     EXPECT_EQ(must_read(kTwo + "CELL_DATA 2\nSCALARS CellEntityIds int 1\nLOOKUP_TABLE default\n-1 5\n").regions,
               (std::vector<std::uint32_t>{0, 5}));
@@ -106,7 +109,7 @@ TEST(VtkFilesTest, WhatIsWrongIsNamedWhereItStands) {
     const std::string bad = binary_grid({3, 0, 1, 2, 3, 1, 7, 2});
     const std::size_t cells = bad.find("CELLS 2 8\n") + 10;
     expect_error(bad, Cause::kIndexOutOfRange,
-                 "byte " + std::to_string(cells + 4 * 6) + ": cell 1 names point 7; there are 0 to 3");
+                 "byte " + std::to_string(cells + std::size_t{4} * 6) + ": cell 1 names point 7; there are 0 to 3");
     expect_error(kGrid + "CELLS 3 12\n3 0 1 2\n3 0 1 4\n3 1 3 2\nCELL_TYPES 3\n5 5 5\n", Cause::kIndexOutOfRange,
                  "line 10: cell 1 names point 4");
     expect_error(kGrid + "CELLS 3 6\nOFFSETS int\n0 3\n6\nCONNECTIVITY int\n0 1 2\n1 3 -2\nCELL_TYPES 2\n5 5\n",
