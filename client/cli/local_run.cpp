@@ -61,7 +61,7 @@ Expected<Source> read_source(const std::string& path, const Arguments& a) {
 struct Measured {
     TriangleMesh mesh;
     std::optional<LengthUnit> unit;
-    std::vector<Finding> findings{};  ///< of a mesh as it was read and repaired
+    std::vector<Finding> findings{};        ///< of a mesh as it was read and repaired
     std::optional<TriangleMesh> surface{};  ///< of a .vsplit file its finest resolution, where mid-side nodes are to go on it
 };
 
