@@ -11,11 +11,13 @@ namespace vsplit::wire {
 /// A JSON text on its way through nlohmann's lexer, which says nowhere how far it is: this does, after each character it takes.
 class Place {
 public:
+    // NOLINTBEGIN(readability-identifier-naming): the standard's names
     using iterator_category = std::forward_iterator_tag;
     using value_type = char;
     using difference_type = std::ptrdiff_t;
     using pointer = const char*;
     using reference = const char&;
+    // NOLINTEND(readability-identifier-naming)
 
     Place(const char* at, const char** reached) : at_(at), reached_(reached) {}
     reference operator*() const { return *at_; }
