@@ -182,7 +182,7 @@ Expected<Outcome> take_features(const Arguments& a, ProgressBar& progress, const
     MeshReport report = inspect(made->mesh);
     report.unit = mesh->unit;
     std::string note;
-    if (made->removed.empty()) {
+    if (made->removed.empty() && made->kept.empty()) {
         const Expected<std::vector<ShapeFeature>> features = list_features(mesh->mesh, a.removal.search);
         if (!features) return features.error();
         note = nothing_removed_note(a.removal, wire::to_proto(*features, mesh->unit));

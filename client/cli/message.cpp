@@ -167,15 +167,13 @@ std::string on_chord_note(std::uint32_t edges) {
 std::string controlled_surface_note(const v1::Representation& made) {
     if (made.method() != v1::CONTROL) return "";
     return "vsplit: note: the middle nodes lie on the mesh that control was given, of which the .vsplit file knows no more; "
-           "write "
-           "them by `vsplit control` itself to have them on the surface that a mesh of `improve` was made of\n";
+           "write them by `vsplit control` itself to have them on the surface that a mesh of `improve` was made of\n";
 }
 
 std::string sent_surface_note(const std::string& input) {
     if (!is_representation_file(input)) return "";
     return "vsplit: note: the middle nodes lie on the mesh that was sent, one resolution of the .vsplit file; without a server "
-           "they lie "
-           "on its finest\n";
+           "they lie on its finest\n";
 }
 
 }  // namespace vsplit::cli

@@ -225,7 +225,7 @@ private:
         Expected<v1::RemoveFeaturesResponse> done = client_.remove_features(request, call_);
         if (!done) return done.error();
         std::string note;
-        if (done->removed().empty()) {
+        if (done->removed().empty() && done->kept().empty()) {
             const Expected<v1::ListFeaturesResponse> list = client_.list_features(features_request(), call_);
             if (!list) return list.error();
             note = nothing_removed_note(removal, *list);

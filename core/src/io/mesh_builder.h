@@ -58,7 +58,7 @@ public:
 
 private:
     struct Polygon {
-        std::uint32_t first_face = 0;  // of the fan that is its triangles for now
+        std::uint32_t first_face = 0;  // of the fan that its triangles are until it is cut
         std::uint32_t corners = 0;
         Place place;
     };
