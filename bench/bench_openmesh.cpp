@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "vsplit/base/memory.h"
 #include "vsplit/vsplit.h"
 
 namespace {
@@ -215,6 +216,7 @@ bool parse(const std::vector<std::string>& arguments, Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    vsplit::return_large_memory();  // as the program does
     Options options;
     if (!parse({argv + 1, argv + argc}, options)) return usage();
     const auto read = vsplit::read_mesh_file(options.mesh, {.weld = 0});

@@ -1,3 +1,7 @@
 #include "cli/app.h"
+#include "vsplit/base/memory.h"
 
-int main(int argc, char** argv) { return vsplit::cli::run(argc, argv); }
+int main(int argc, char** argv) {
+    vsplit::return_large_memory();
+    return vsplit::cli::run(argc, argv);
+}

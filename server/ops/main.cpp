@@ -36,6 +36,7 @@
 #include "service/meshing_service.h"
 #include "service/sweeper.h"
 #include "store/data_dir.h"
+#include "vsplit/base/memory.h"
 #include "vsplit/v1/meshing.grpc.pb.h"
 
 namespace vsplit::ops {
@@ -53,14 +54,6 @@ sigset_t stop_signals() {
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGINT);
     return signals;
-}
-
-// Whole meshes and files come and go: their memory goes back to the system when it is freed, not into the heaps of threads.
-void return_large_memory() {
-#if defined(__GLIBC__)
-    constexpr int kLarge = 1 << 20;
-    static_cast<void>(mallopt(M_MMAP_THRESHOLD, kLarge));
-#endif
 }
 
 // Many small pieces, those of messages above all, stay with the heaps of threads when they are freed.

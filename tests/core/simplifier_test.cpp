@@ -246,21 +246,27 @@ TEST(EdgeQueueTest, BehavesLikeASortedMap) {
     constexpr std::uint32_t kEdges = 3000;  // three levels of matches
     EdgeQueue queue(kEdges);
     std::map<HalfEdge, double> reference;
+    std::set<HalfEdge> aside;
     const auto best = [&] {
         return *std::min_element(reference.begin(), reference.end(), [](const auto& l, const auto& r) {
             return l.second != r.second ? l.second > r.second : l.first < r.first;
         });
     };
     for (int step = 0; step < 20000; ++step) {
-        const HalfEdge edge = random.below(step < 10000 ? 60 : kEdges);
+        const HalfEdge edge = random.below(step < 200 ? 2 : step < 10000 ? 60 : kEdges);
+        reference.erase(edge);
+        aside.erase(edge);
         if (random.below(3) == 0) {
             queue.erase(edge);
-            reference.erase(edge);
+        } else if (random.below(step < 5000 ? 2 : 4) == 0) {
+            queue.set_aside(edge);
+            aside.insert(edge);
         } else {
             const double priority = random.below(50);  // few values, so that ties happen
             queue.set(edge, priority);
             reference[edge] = priority;
         }
+        ASSERT_EQ(queue.is_aside(edge), aside.contains(edge));
         if (reference.empty()) {
             ASSERT_EQ(queue.top(), kNone);
             continue;

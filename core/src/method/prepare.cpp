@@ -18,25 +18,22 @@
 namespace vsplit {
 namespace {
 
-FaceNormals inherit(const FaceNormals& source, const std::vector<std::uint32_t>& parent) {
-    FaceNormals result;
-    result.normals.reserve(parent.size());
-    result.reliable.reserve(parent.size());
-    for (const std::uint32_t p : parent) {
-        result.normals.push_back(source.normals[p]);
-        result.reliable.push_back(source.reliable[p]);
-    }
-    return result;
+/// Of faces, each that of its parent in `source`; in single precision, to be compared with others.
+std::vector<Eigen::Vector3f> inherit(const FaceNormals& source, const std::vector<std::uint32_t>& parent) {
+    std::vector<Eigen::Vector3f> normals;
+    normals.reserve(parent.size());
+    for (const std::uint32_t p : parent) normals.push_back(source.normals[p].cast<float>());
+    return normals;
 }
 
-/// Planes of the faces and lines of the sharp edges at each vertex ([Date05] 3.1).
-std::vector<Quadric> vertex_quadrics(const TriangleMesh& mesh, const FaceNormals& normals, const std::vector<SharpEdge>& creases,
-                                     const Vec3& centre) {
+/// Planes of the faces, which lie in those of their parents, and lines of the sharp edges at each vertex ([Date05] 3.1).
+std::vector<Quadric> vertex_quadrics(const SubdividedMesh& subdivided, const FaceNormals& source,
+                                     const std::vector<SharpEdge>& creases, const Vec3& centre) {
+    const TriangleMesh& mesh = subdivided.mesh;
     std::vector<Quadric> quadrics(mesh.positions.size());
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        for (const std::uint32_t v : mesh.faces[f]) {
-            quadrics[v] += Quadric::plane(normals.normals[f], mesh.positions[v] - centre);
-        }
+        const Vec3& normal = source.normals[subdivided.parent[f]];
+        for (const std::uint32_t v : mesh.faces[f]) quadrics[v] += Quadric::plane(normal, mesh.positions[v] - centre);
     }
     for (const SharpEdge& edge : creases) {
         const Vec3 a = mesh.positions[edge.a] - centre;
@@ -68,7 +65,7 @@ void cap(SimplifyInput& input) {
     input.mesh = std::move(capped.mesh);
     input.ghosts = capped.ghosts;
     if (input.ghosts == 0) return;
-    input.normals.resize(input.mesh.faces.size(), Vec3::Zero());
+    input.normals.resize(input.mesh.faces.size(), Eigen::Vector3f::Zero());
     input.quadrics.insert(input.quadrics.begin(), input.ghosts, Quadric{});
     if (!input.sizes.empty()) input.sizes.insert(input.sizes.begin(), input.ghosts, input.usual_size);
     for (std::uint32_t& corner : input.boundary_corners) corner += input.ghosts;
@@ -104,7 +101,6 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
     order_spatially(subdivided);
     const TriangleMesh& coarse = options.replaced ? options.replaced->mesh : source;
     const FaceNormals source_normals = face_normals(coarse);
-    FaceNormals normals = inherit(source_normals, subdivided.parent);
     SimplifyInput input;
     input.centre = (box.min + box.max) / 2;
     input.creases =
@@ -115,14 +111,14 @@ SimplifyInput prepare(const TriangleMesh& source, SubdividedMesh subdivided, con
         input.boundary_corners = boundary_corners(subdivided.mesh, {options.features.angle, kCornerReach * options.tolerance});
         input.freeze_boundary = options.freeze_boundary;
     }
-    input.quadrics = vertex_quadrics(subdivided.mesh, normals, input.creases, input.centre);
+    input.quadrics = vertex_quadrics(subdivided, source_normals, input.creases, input.centre);
     if (options.sizes != nullptr) {
         input.sizes = allowed_sizes(subdivided, coarse, *options.sizes);
         input.usual_size = options.sizes->usual;
         input.sizes_bind = options.sizes->binding;
     }
     input.mesh = std::move(subdivided.mesh);
-    input.normals = std::move(normals.normals);
+    input.normals = inherit(source_normals, subdivided.parent);
     input.crease_cosine = std::cos(options.features.angle * std::numbers::pi / 180);
     input.tolerance = options.tolerance;
     input.faces_min = options.faces_min;

@@ -33,6 +33,16 @@ public:
         touch(0, edge / kPlayers);
     }
 
+    /// Drops the edge and notes it, until it is set or erased. O(1).
+    void set_aside(HalfEdge edge) {
+        levels_[0].best[edge] = kAside;
+        touch(0, edge / kPlayers);
+    }
+    [[nodiscard]] bool is_aside(HalfEdge edge) const { return levels_[0].best[edge] == kAside; }
+
+    /// `set_aside` for many, as `enter` is `set`.
+    void enter_aside(HalfEdge edge) { levels_[0].best[edge] = kAside; }
+
     /// Drops all. O(edges).
     void clear();
 
@@ -43,7 +53,7 @@ public:
 
 private:
     static constexpr std::size_t kPlayers = 32;
-    static constexpr double kAbsent = -1;
+    static constexpr double kAbsent = -1, kAside = -2;
 
     /// Players of one level and the matches among them whose result is open.
     struct Level {

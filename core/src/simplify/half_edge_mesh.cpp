@@ -9,7 +9,7 @@ HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh, std::uint32_t ghosts) : Hal
 
 HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh, const std::vector<HalfEdge>& twins, std::uint32_t ghosts)
     : half_edges_(mesh.faces.size() * 3),
-      creases_(mesh.faces.size() * 3, 0),
+      creases_((mesh.faces.size() * 3 + 3) / 4, 0),
       outgoing_(mesh.positions.size(), kNone),
       valence_(mesh.positions.size(), 0),
       positions_(mesh.positions),
@@ -85,7 +85,7 @@ void HalfEdgeMesh::flip(HalfEdge h) {
     half_edges_[db].origin = b;
     const auto settle = [this](HalfEdge inside, HalfEdge outside) {
         pair(inside, outside);
-        creases_[inside] = creases_[outside];
+        put_mark(inside, marks(outside));
     };
     settle(bc, ac);  // now c -> a
     settle(ca, da);  // now a -> d

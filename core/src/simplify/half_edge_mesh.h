@@ -98,13 +98,13 @@ public:
     }
 
     /// Whether the edge of h is a crease. Edges that a collapse joins are one when either was; a flipped edge keeps its mark.
-    [[nodiscard]] bool is_crease(HalfEdge h) const { return creases_[h] != 0; }
-    void unmark_crease(HalfEdge h) { creases_[h] = creases_[twin(h)] = 0; }
-    void mark_crease(HalfEdge h) { creases_[h] = creases_[twin(h)] = kCrease; }
+    [[nodiscard]] bool is_crease(HalfEdge h) const { return marks(h) != 0; }
+    void unmark_crease(HalfEdge h) { put_marks(h, 0); }
+    void mark_crease(HalfEdge h) { put_marks(h, kCrease); }
 
     /// A crease that counts as one whatever the angle between its faces.
-    [[nodiscard]] bool is_kept_flat(HalfEdge h) const { return (creases_[h] & kKeptFlat) != 0; }
-    void mark_kept_flat(HalfEdge h) { creases_[h] = creases_[twin(h)] = kCrease | kKeptFlat; }
+    [[nodiscard]] bool is_kept_flat(HalfEdge h) const { return (marks(h) & kKeptFlat) != 0; }
+    void mark_kept_flat(HalfEdge h) { put_marks(h, kCrease | kKeptFlat); }
 
 private:
     HalfEdgeMesh(const TriangleMesh& mesh, const std::vector<HalfEdge>& twins, std::uint32_t ghosts);
@@ -116,7 +116,17 @@ private:
     /// As pair, of two edges that become one.
     void join(HalfEdge h, HalfEdge g) {
         pair(h, g);
-        creases_[h] = creases_[g] = creases_[h] | creases_[g];
+        put_marks(h, marks(h) | marks(g));
+    }
+
+    [[nodiscard]] unsigned marks(HalfEdge h) const { return creases_[h / 4] >> (h % 4 * 2) & 3U; }
+    void put_mark(HalfEdge h, unsigned mark) {
+        const unsigned shift = h % 4 * 2;
+        creases_[h / 4] = static_cast<std::uint8_t>((creases_[h / 4] & ~(3U << shift)) | mark << shift);
+    }
+    void put_marks(HalfEdge h, unsigned mark) {
+        put_mark(h, mark);
+        put_mark(twin(h), mark);
     }
 
     /// Side by side, since walks need both: a face's three lie in one or two cache lines.
@@ -125,8 +135,8 @@ private:
         HalfEdge twin = kNone;  // kNone in removed faces
     };
     std::vector<Link> half_edges_;
-    static constexpr std::uint8_t kCrease = 1, kKeptFlat = 2;
-    std::vector<std::uint8_t> creases_;  // of both half-edges of a crease; else 0
+    static constexpr unsigned kCrease = 1, kKeptFlat = 2;
+    std::vector<std::uint8_t> creases_;  // marks of four half-edges a byte, the same for both of an edge
     std::vector<HalfEdge> outgoing_;
     std::vector<std::uint32_t> valence_;
     std::vector<Vec3> positions_;

@@ -25,8 +25,7 @@ LocalState state_without_quadrics(const SimplifyInput& input) {
             const Vec3& a = input.mesh.positions[t[0]];
             const Vec3& b = input.mesh.positions[t[1]];
             const Vec3& c = input.mesh.positions[t[2]];
-            state.faces[f] = {input.normals[f].cast<float>(), stretch(a, b, c),
-                              state.sizes.relative(face_size(a, b, c), t[0], t[1], t[2])};
+            state.faces[f] = {input.normals[f], stretch(a, b, c), state.sizes.relative(face_size(a, b, c), t[0], t[1], t[2])};
         }
     });
     return state;

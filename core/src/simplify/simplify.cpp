@@ -58,9 +58,8 @@ public:
           context_(context),
           mesh_(input_.mesh, input_.ghosts),
           state_(take_initial_state(input_)),
-          queue_(mesh_.half_edge_count()),
-          edges_(mesh_.half_edge_count()),
-          visited_(mesh_.vertex_count(), 0),
+          queue_(mesh_.half_edge_count()),  // edges that no collapse brings within reach before an end moves are set aside
+          refusals_(input_.source ? mesh_.half_edge_count() : 0),
           faces_start_(mesh_.live_faces()),
           evaluator_(mesh_, state_, policy_, input_),
           guard_(make_guard()),
@@ -86,8 +85,7 @@ private:
         release(state_);
         queue_ = EdgeQueue(0);
         guard_ = nullptr;
-        release(edges_);
-        release(visited_);
+        release(refusals_);
     }
 
     [[nodiscard]] static PolishLimits limits_of(const Policy& policy, const SimplifyInput& input) {
@@ -250,16 +248,22 @@ private:
 
     /// Queues an edge by its priority, or not at all.
     void settle(HalfEdge edge) {
-        if (edges_[edge].refusals >= kMostRefusals) return;
+        if (!refusals_.empty() && refusals_[edge] >= kMostRefusals) return;
         const Evaluation evaluation = evaluator_.rank(edge);
-        edges_[edge].out_of_reach = evaluation.verdict == Evaluation::Verdict::kOutOfReach;
-        evaluation.verdict == Evaluation::Verdict::kValid ? queue_.set(edge, evaluation.priority) : queue_.erase(edge);
+        switch (evaluation.verdict) {
+            case Evaluation::Verdict::kValid:
+                return queue_.set(edge, evaluation.priority);
+            case Evaluation::Verdict::kInvalid:
+                return queue_.erase(edge);
+            case Evaluation::Verdict::kOutOfReach:
+                return queue_.set_aside(edge);
+        }
     }
 
     /// Evaluates every edge, on all threads the context allows: each depends only on the mesh as it stands.
     [[nodiscard]] Status evaluate_all_edges() {
         queue_.clear();
-        std::fill(edges_.begin(), edges_.end(), EdgeNote{});
+        std::fill(refusals_.begin(), refusals_.end(), std::uint8_t{0});
         tbb::enumerable_thread_specific<EdgeEvaluator<Policy>> evaluators(
             [&] { return EdgeEvaluator<Policy>(mesh_, state_, policy_, input_); });
         report_evaluated(0);
@@ -270,7 +274,7 @@ private:
                 if (mesh_.removed(h) || mesh_.edge_of(h) != h) continue;
                 const Evaluation evaluation = evaluator.rank(h);
                 if (evaluation.verdict == Evaluation::Verdict::kValid) queue_.enter(h, evaluation.priority);
-                edges_[h].out_of_reach = evaluation.verdict == Evaluation::Verdict::kOutOfReach;
+                if (evaluation.verdict == Evaluation::Verdict::kOutOfReach) queue_.enter_aside(h);
             }
         };
         tbb::parallel_for(tbb::blocked_range<HalfEdge>(0, mesh_.half_edge_count(), 2048), evaluate_range);
@@ -297,7 +301,7 @@ private:
         // Evenness goes by the valences across the edge, whose changes do not reach as far as those of shape.
         assert(Policy::kExtended || evaluation.priority == queue_.priority(mesh_.edge_of(edge)));
         if (!guards_admit(star, evaluation.position)) {
-            ++edges_[edge].refusals;
+            ++refusals_[edge];
             return drop(edge);  // until its neighbourhood changes
         }
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
@@ -310,9 +314,10 @@ private:
         mesh_.collapse(star, evaluation.position);
         creases_.commit();
         update_faces(kept);
-        if constexpr (Policy::kExtended) mesh_.touch_around(kept);
+        const std::uint32_t before = mesh_.clock();
+        mesh_.touch_around(kept);
         if constexpr (Policy::kExtended) flip_around(kept);
-        requeue_around(kept);
+        requeue_around(kept, before);
     }
 
     /// Flips give edges other numbers: those of the faces that changed are taken out of the queue before they come in anew.
@@ -320,8 +325,8 @@ private:
         const std::vector<std::uint32_t>& changed = polisher_.flip_around(kept);
         for (const std::uint32_t face : changed) {
             for (const HalfEdge h : {3 * face, 3 * face + 1, 3 * face + 2}) {
-                drop_number(h);
-                drop_number(mesh_.twin(h));
+                queue_.erase(h);
+                queue_.erase(mesh_.twin(h));
                 ring_.push_back(mesh_.origin(h));
             }
         }
@@ -329,16 +334,11 @@ private:
         ring_.erase(std::unique(ring_.begin(), ring_.end()), ring_.end());
     }
 
-    void drop(HalfEdge h) { drop_number(mesh_.edge_of(h)); }
-
-    void drop_number(HalfEdge edge) {
-        queue_.erase(edge);
-        edges_[edge].out_of_reach = false;
-    }
+    void drop(HalfEdge h) { queue_.erase(mesh_.edge_of(h)); }
 
     void update_faces(std::uint32_t kept) {
         const Fan& fan = evaluator_.fan();
-        ring_.clear();
+        ring_.assign(1, kept);
         for (std::size_t t = 0; t < fan.ring_size(); ++t) ring_.push_back(fan.vertex(t));
         for (std::size_t t = 0; t < fan.size(); ++t) {
             const std::uint32_t after = fan.vertex(t + 1 < fan.ring_size() ? t + 1 : 0);
@@ -349,20 +349,18 @@ private:
     }
 
     /// Every edge with an end in the ring of k, or in that of a flip, has new faces around it, or a neighbour that moved: its
-    /// priority is open again.
-    void requeue_around(std::uint32_t k) {
-        ++visit_;
+    /// priority is open again. ring_ is what was touched since the mesh's clock showed `before`.
+    void requeue_around(std::uint32_t k, std::uint32_t before) {
         open_.clear();
-        for (const std::uint32_t v : ring_) visited_[v] = visit_;
         for (const std::uint32_t v : ring_) {
             // No edge of a hub is valid, so none is queued: a walk around it at every collapse beside it would be for nothing.
             if (mesh_.valence(v) > kValenceCeiling + 1) continue;
             mesh_.for_each_outgoing(v, [&](HalfEdge h) {
                 const std::uint32_t other = mesh_.target(h);
-                if (visited_[other] == visit_ && other < v) return;  // both ends in the ring: once is enough
+                if (other < v && mesh_.changed_at(other) > before) return;  // both ends are in ring_: once is enough
                 const HalfEdge edge = mesh_.edge_of(h);
                 // Neither quadric changed unless an end is k: no place came within reach.
-                if (edges_[edge].out_of_reach && other != k && v != k) return;
+                if (queue_.is_aside(edge) && other != k && v != k) return;
                 prefetch(state_.quadrics[other]);
                 open_.push_back(edge);
             });
@@ -386,17 +384,10 @@ private:
     HalfEdgeMesh mesh_;
     LocalState state_;
     EdgeQueue queue_;
-    /// What is known of an edge beside its priority, in a byte.
-    struct EdgeNote {
-        bool out_of_reach : 1 = false;  // not queued, nor will it be until one of its ends moves
-        std::uint8_t refusals : 7 = 0;  // how often the guard refused it since all edges were evaluated
-    };
-    std::vector<EdgeNote> edges_;
+    std::vector<std::uint8_t> refusals_;  // by guards, since all edges were evaluated; empty where there are none
     CollapseLog log_;
-    std::vector<std::uint32_t> visited_;  // visit_ of the last collapse that had the vertex in its ring
-    std::vector<std::uint32_t> ring_;
-    std::vector<HalfEdge> open_;  // edges to evaluate again
-    std::uint32_t visit_ = 0;
+    std::vector<std::uint32_t> ring_;  // the vertex of the last collapse and those around it
+    std::vector<HalfEdge> open_;       // edges to evaluate again
     std::uint32_t faces_start_ = 0;
     bool reached_floor_ = false;
     double stretch_sum_ = 0;  // of visible faces, kept up by the strict mode

@@ -16,9 +16,9 @@ namespace vsplit {
 
 /// What a simplification starts from.
 struct SimplifyInput {
-    TriangleMesh mesh;              ///< closed 2-manifold; open boundaries closed by ghosts (see CappedMesh)
-    std::vector<Vec3> normals;      ///< one a face, unit (see FaceNormals); anything for ghost faces
-    std::vector<Quadric> quadrics;  ///< one a vertex, of points relative to `centre`
+    TriangleMesh mesh;                     ///< closed 2-manifold; open boundaries closed by ghosts (see CappedMesh)
+    std::vector<Eigen::Vector3f> normals;  ///< one a face, unit (see FaceNormals); anything for ghost faces
+    std::vector<Quadric> quadrics;         ///< one a vertex, of points relative to `centre`
     Vec3 centre = Vec3::Zero();
     std::vector<SharpEdge> creases;               ///< of `mesh`; the extended mode keeps them apart
     double crease_cosine = -1;                    ///< of the angle from which on an edge is one
