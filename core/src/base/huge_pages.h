@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -18,6 +19,26 @@ inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std
     if (std::align(kHugePage, kHugePage, begin, room) != nullptr)
         static_cast<void>(madvise(begin, room / kHugePage * kHugePage, MADV_HUGEPAGE));
 #endif
+}
+
+/// Makes room for `count` elements in all, in large pages where that helps.
+template <class Element>
+void reserve_large(std::vector<Element>& elements, std::size_t count) {
+    if (count <= elements.capacity()) return;
+    std::vector<Element> larger;
+    larger.reserve(count);
+    prefer_huge_pages(larger.data(), count * sizeof(Element));
+    larger.insert(larger.end(), elements.begin(), elements.end());
+    elements.swap(larger);
+}
+
+/// `count` elements, in large pages where that helps.
+template <class Element>
+[[nodiscard]] std::vector<Element> large_vector(std::size_t count, const Element& value = Element()) {
+    std::vector<Element> elements;
+    reserve_large(elements, count);
+    elements.resize(count, value);
+    return elements;
 }
 
 }  // namespace vsplit

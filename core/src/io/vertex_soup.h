@@ -13,7 +13,8 @@ namespace vsplit {
 /// does: the six copies of each vertex are never all in memory.
 class VertexSoup {
 public:
-    void reserve_faces(std::size_t faces) { faces_.reserve(faces); }
+    /// Makes room for so many triangles.
+    void reserve_faces(std::size_t faces);
 
     /// \pre finite coordinates.
     void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {

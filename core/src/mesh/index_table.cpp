@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "base/huge_pages.h"
+
 namespace vsplit {
 
 void IndexTable::reserve(std::size_t count) {
     const std::size_t needed = count + count / 2 + 1;
     if (needed <= slots_.size()) return;
-    std::vector<Slot> old(std::max(needed, 2 * slots_.size()));
+    auto old = large_vector<Slot>(std::max(needed, 2 * slots_.size()));
     old.swap(slots_);
     for (const Slot& slot : old) {
         if (slot.index != kNone) insert(slot.hash, slot.index);

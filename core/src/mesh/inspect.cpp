@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/half_edges.h"
 #include "quality/quality_of_edges.h"
@@ -109,8 +110,8 @@ std::uint32_t corners_in_fan(const std::vector<HalfEdge>& twins, HalfEdge corner
 /// The same where all is regular, by a walk around each vertex.
 std::vector<std::uint8_t> vertices_of_several_fans_in_regular(const TriangleMesh& mesh, const EdgeIndex& edges) {
     const std::vector<HalfEdge> twins = half_edge_twins(mesh, edges);
-    std::vector<HalfEdge> corner(mesh.positions.size(), kNone);
-    std::vector<std::uint32_t> corners(mesh.positions.size(), 0);
+    auto corner = large_vector<HalfEdge>(mesh.positions.size(), kNone);
+    auto corners = large_vector<std::uint32_t>(mesh.positions.size());
     for (HalfEdge h = 0; h < twins.size(); ++h) {
         corner[origin(mesh, h)] = h;
         ++corners[origin(mesh, h)];

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/huge_pages.h"
+
 namespace vsplit {
 namespace {
 
@@ -42,10 +44,10 @@ private:
 /// Indices 0..count-1 in order of their cell, ties by index.
 template <class Cell>
 std::vector<std::uint32_t> sorted_by(std::uint32_t count, Cell cell) {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(count);
+    auto keys = large_vector<std::pair<std::uint64_t, std::uint32_t>>(count);
     for (std::uint32_t i = 0; i < count; ++i) keys[i] = {cell(i), i};
     tbb::parallel_sort(keys.begin(), keys.end());
-    std::vector<std::uint32_t> order(count);
+    auto order = large_vector<std::uint32_t>(count);
     for (std::uint32_t i = 0; i < count; ++i) order[i] = keys[i].second;
     return order;
 }
@@ -63,15 +65,15 @@ void order_spatially(SubdividedMesh& subdivided) {
     });
 
     TriangleMesh ordered;
-    std::vector<std::uint32_t> number(vertices.size());
-    ordered.positions.reserve(vertices.size());
+    auto number = large_vector<std::uint32_t>(vertices.size());
+    reserve_large(ordered.positions, vertices.size());
     for (const std::uint32_t v : vertices) {
         number[v] = ordered.vertex_count();
         ordered.positions.push_back(mesh.positions[v]);
     }
     std::vector<std::uint32_t> parent;
-    parent.reserve(faces.size());
-    ordered.faces.reserve(faces.size());
+    reserve_large(parent, faces.size());
+    reserve_large(ordered.faces, faces.size());
     for (const std::uint32_t f : faces) {
         const Triangle& t = mesh.faces[f];
         ordered.faces.push_back({number[t[0]], number[t[1]], number[t[2]]});

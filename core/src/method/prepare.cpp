@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/huge_pages.h"
 #include "features/boundary_corners.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/cap_boundaries.h"
@@ -21,7 +22,7 @@ namespace {
 /// Of faces, each that of its parent in `source`; in single precision, to be compared with others.
 std::vector<Eigen::Vector3f> inherit(const FaceNormals& source, const std::vector<std::uint32_t>& parent) {
     std::vector<Eigen::Vector3f> normals;
-    normals.reserve(parent.size());
+    reserve_large(normals, parent.size());
     for (const std::uint32_t p : parent) normals.push_back(source.normals[p].cast<float>());
     return normals;
 }
@@ -30,7 +31,7 @@ std::vector<Eigen::Vector3f> inherit(const FaceNormals& source, const std::vecto
 std::vector<Quadric> vertex_quadrics(const SubdividedMesh& subdivided, const FaceNormals& source,
                                      const std::vector<SharpEdge>& creases, const Vec3& centre) {
     const TriangleMesh& mesh = subdivided.mesh;
-    std::vector<Quadric> quadrics(mesh.positions.size());
+    auto quadrics = large_vector<Quadric>(mesh.positions.size());
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
         const Vec3& normal = source.normals[subdivided.parent[f]];
         for (const std::uint32_t v : mesh.faces[f]) quadrics[v] += Quadric::plane(normal, mesh.positions[v] - centre);

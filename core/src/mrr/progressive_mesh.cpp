@@ -26,13 +26,7 @@ const char* name_of(const VertexMove& /*record*/) { return "vertex move"; }
 template <class Element>
 void make_room(std::vector<Element>& elements, std::size_t more) {
     const std::size_t needed = elements.size() + more;
-    if (needed <= elements.capacity()) return;
-    const std::size_t room = std::max(needed, 2 * elements.capacity());
-    std::vector<Element> larger;
-    larger.reserve(room);
-    prefer_huge_pages(larger.data(), room * sizeof(Element));
-    larger.insert(larger.end(), elements.begin(), elements.end());
-    elements.swap(larger);
+    if (needed > elements.capacity()) reserve_large(elements, std::max(needed, 2 * elements.capacity()));
 }
 
 Status check_indices_and_coordinates(const TriangleMesh& mesh) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/huge_pages.h"
+
 namespace vsplit {
 namespace {
 
@@ -34,7 +36,7 @@ std::size_t first_with(const double* players, double priority) {
 EdgeQueue::EdgeQueue(std::size_t half_edges) {
     for (std::size_t players = half_edges;;) {
         const std::size_t matches = std::max<std::size_t>(1, (players + kPlayers - 1) / kPlayers);
-        levels_.push_back({std::vector<double>(matches * kPlayers, kAbsent), {}, std::vector<bool>(matches, false)});
+        levels_.push_back({large_vector(matches * kPlayers, kAbsent), {}, std::vector<bool>(matches, false)});
         if (matches == 1) break;
         players = matches;
     }

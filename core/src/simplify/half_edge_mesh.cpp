@@ -1,5 +1,6 @@
 #include "simplify/half_edge_mesh.h"
 
+#include "base/huge_pages.h"
 #include "vsplit/mrr/multires_mesh.h"
 
 namespace vsplit {
@@ -8,14 +9,15 @@ namespace vsplit {
 HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh, std::uint32_t ghosts) : HalfEdgeMesh(mesh, half_edge_twins(mesh), ghosts) {}
 
 HalfEdgeMesh::HalfEdgeMesh(const TriangleMesh& mesh, const std::vector<HalfEdge>& twins, std::uint32_t ghosts)
-    : half_edges_(mesh.faces.size() * 3),
+    : half_edges_(large_vector<Link>(mesh.faces.size() * 3)),
       creases_((mesh.faces.size() * 3 + 3) / 4, 0),
-      outgoing_(mesh.positions.size(), kNone),
-      valence_(mesh.positions.size(), 0),
-      positions_(mesh.positions),
+      outgoing_(large_vector<HalfEdge>(mesh.positions.size(), kNone)),
+      valence_(large_vector<std::uint32_t>(mesh.positions.size())),
       changed_at_(mesh.positions.size(), 0),
       ghosts_(ghosts),
       live_faces_(mesh.face_count() - count_ghost_faces(mesh, ghosts)) {
+    reserve_large(positions_, mesh.positions.size());
+    positions_ = mesh.positions;
     for (HalfEdge h = 0; h < twins.size(); ++h) {
         const std::uint32_t v = vsplit::origin(mesh, h);
         half_edges_[h] = {v, twins[h]};

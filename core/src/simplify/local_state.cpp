@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "base/huge_pages.h"
 #include "base/release.h"
 #include "vsplit/quality/stretch.h"
 
@@ -17,7 +18,7 @@ LocalState state_without_quadrics(const SimplifyInput& input) {
     LocalState state;
     state.sizes = VertexSizes(input.sizes, input.usual_size, input.sizes_bind);
     state.border = Border(input.mesh, input.ghosts, input.boundary_corners, input.freeze_boundary);
-    state.faces.resize(input.mesh.faces.size());
+    state.faces = large_vector<FaceState>(input.mesh.faces.size());
     const tbb::blocked_range<std::uint32_t> faces(0, input.mesh.face_count(), 4096);
     tbb::parallel_for(faces, [&](const tbb::blocked_range<std::uint32_t>& range) {
         for (std::uint32_t f = range.begin(); f < range.end(); ++f) {
