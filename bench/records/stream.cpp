@@ -139,7 +139,8 @@ void print_meshes(const char* name, const Fetch& fetch) {
 }
 
 /// How soon a client has a level, by all the ways there are.
-void print_all_meshes(client::MeshingClient& client, const std::string& session, std::uint32_t faces) {
+void print_all_meshes(client::MeshingClient& client, const std::string& session, const std::string& representation,
+                      std::uint32_t faces) {
     std::printf("\n| %u faces, as | A mesh to show, ms: first time, median of %d | The mesh asked for, ms |\n|---|--:|--:|\n",
                 faces, kRounds);
     for (const auto& [name, encoding, bits] : {std::tuple("records, FLOAT64", v1::FLOAT64, 0U),
@@ -147,6 +148,7 @@ void print_all_meshes(client::MeshingClient& client, const std::string& session,
                                                {"records, 14 bits", v1::QUANTISED, 14U}}) {
         v1::SetResolutionRequest request;
         request.set_session(session);
+        request.set_representation(representation);
         request.set_faces(faces);
         request.set_encoding(encoding);
         request.set_quantisation_bits(bits);
@@ -155,6 +157,7 @@ void print_all_meshes(client::MeshingClient& client, const std::string& session,
     for (const auto& [name, format] : {std::pair("binary STL", v1::STL), {"binary PLY", v1::PLY}}) {
         v1::DownloadMeshRequest request;
         request.set_session(session);
+        request.set_representation(representation);
         request.set_faces(faces);
         request.set_format(format);
         print_meshes(name, [&] { return download(client, request); });
@@ -227,5 +230,5 @@ int main(int argc, char** argv) {
                     *std::max_element(waits.begin(), waits.end()), first.end * 1e3, median(ends), server_cost, client_cost,
                     cost_of_stalled(server, pid, request) / 1e6);
     }
-    print_all_meshes(*client, session, std::clamp(30'000U, made->faces_min(), made->faces_max()));
+    print_all_meshes(*client, session, made->id(), std::clamp(30'000U, made->faces_min(), made->faces_max()));
 }
