@@ -118,6 +118,7 @@ Status BaseMeshAssembler::begin(const v1::BaseMesh& part) {
     begun_ = true;
     max_error_ = part.max_error();
     first_record_ = part.first_record();
+    splits_ = part.splits();
     const Expected<RecordEncoding> encoding = from_proto(part.encoding());
     if (!encoding) return base_error(Cause::kCorrupt, encoding.error().message);
     if (*encoding == RecordEncoding::kFloat32) grid_ = PositionGrid::float32();

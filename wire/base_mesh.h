@@ -64,6 +64,8 @@ public:
     [[nodiscard]] double max_error() const { return max_error_; }
     /// Of a keyframe the number of the first record that it has not in it, as the first part said; otherwise 0.
     [[nodiscard]] std::uint32_t first_record() const { return first_record_; }
+    /// How many splits the stream means to bring, as the first part said.
+    [[nodiscard]] std::uint32_t splits() const { return splits_; }
 
 private:
     [[nodiscard]] Status check_counts(const v1::BaseMesh& part);
@@ -82,6 +84,7 @@ private:
     PositionGrid grid_;
     double max_error_ = 0;
     std::uint32_t first_record_ = 0;
+    std::uint32_t splits_ = 0;
     std::string packed_;
     TriangleMesh mesh_;
 };

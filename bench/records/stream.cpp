@@ -1,22 +1,26 @@
 // How fast a server sends records to one client, how soon the first block comes, and what readers that stall cost it, on a
-// representation that it holds: rows of a table in Markdown. bench_stream HOST:PORT SESSION PID, PID the server's on this
-// machine.
+// representation that it holds; then how soon a client that holds nothing has a mesh, by records and by files: tables in
+// Markdown. bench_stream HOST:PORT SESSION PID, PID the server's on this machine.
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <latch>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "vsplit/client/mesh_receiver.h"
 #include "vsplit/client/meshing_client.h"
+#include "vsplit/io/read_mesh.h"
 
 namespace {
 
@@ -64,7 +68,7 @@ double processor_seconds(const std::string& pid = "self") {
 }
 
 struct Stream {
-    double payload = 0, first_block = 0, all = 0;  ///< bytes, seconds, seconds
+    double payload = 0, first_block = 0, last_block = 0, end = 0;  ///< bytes, seconds; it ends with figures of the level
 };
 
 Stream receive(client::MeshingClient& client, const v1::SetResolutionRequest& request) {
@@ -74,11 +78,90 @@ Stream receive(client::MeshingClient& client, const v1::SetResolutionRequest& re
     handlers.on_block = [&](const RecordBlock& block) -> Status {
         if (stream.payload == 0) stream.first_block = seconds_since(start);
         stream.payload += static_cast<double>(block.payload.size());
+        stream.last_block = seconds_since(start);
         return Done{};
     };
     if (const auto done = client.set_resolution(request, handlers); !done) stop(done.error());
-    stream.all = seconds_since(start);
+    stream.end = seconds_since(start);
     return stream;
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+struct Meshes {
+    double first = 0, last = 0;  ///< seconds until a mesh can be shown, and until that which was asked for
+};
+
+/// Decoded, to a client that holds nothing.
+Meshes receive_mesh(client::MeshingClient& client, const v1::SetResolutionRequest& request) {
+    Meshes meshes;
+    client::MeshReceiver receiver;
+    const Clock::time_point start = Clock::now();
+    client::EventHandlers handlers = receiver.handlers();
+    handlers.on_base_mesh = [&](client::StreamBase base) -> Status {
+        Status begun = receiver.begin(std::move(base));
+        meshes.first = meshes.last = seconds_since(start);
+        return begun;
+    };
+    handlers.on_block = [&](const RecordBlock& block) -> Status {
+        Status appended = receiver.append(block);
+        meshes.last = seconds_since(start);
+        return appended;
+    };
+    if (const auto done = client.set_resolution(request, handlers); !done) stop(done.error());
+    return meshes;
+}
+
+/// Read, to a client that holds nothing.
+Meshes download(client::MeshingClient& client, const v1::DownloadMeshRequest& request) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / ("bench_stream_" + std::to_string(::getpid()));
+    const Clock::time_point start = Clock::now();
+    if (const auto done = client.download_mesh(request, file); !done) stop(done.error());
+    if (const auto mesh = read_mesh_file(file, {}); !mesh) stop(mesh.error());
+    const double seconds = seconds_since(start);
+    std::filesystem::remove(file);
+    return {seconds, seconds};
+}
+
+template <class Fetch>
+void print_meshes(const char* name, const Fetch& fetch) {
+    const Meshes unmade = fetch();
+    std::vector<double> first, last;
+    for (int round = 0; round < kRounds; ++round) {
+        const Meshes meshes = fetch();
+        first.push_back(meshes.first * 1e3);
+        last.push_back(meshes.last * 1e3);
+    }
+    std::printf("| %s | %.1f, %.1f | %.1f, %.1f |\n", name, unmade.first * 1e3, median(first), unmade.last * 1e3, median(last));
+}
+
+/// How soon a client has a level, by all the ways there are.
+void print_all_meshes(client::MeshingClient& client, const std::string& session, const std::string& representation,
+                      std::uint32_t faces) {
+    std::printf("\n| %u faces, as | A mesh to show, ms: first time, median of %d | The mesh asked for, ms |\n|---|--:|--:|\n",
+                faces, kRounds);
+    for (const auto& [name, encoding, bits] : {std::tuple("records, FLOAT64", v1::FLOAT64, 0U),
+                                               {"records, FLOAT32", v1::FLOAT32, 0U},
+                                               {"records, 14 bits", v1::QUANTISED, 14U}}) {
+        v1::SetResolutionRequest request;
+        request.set_session(session);
+        request.set_representation(representation);
+        request.set_faces(faces);
+        request.set_encoding(encoding);
+        request.set_quantisation_bits(bits);
+        print_meshes(name, [&] { return receive_mesh(client, request); });
+    }
+    for (const auto& [name, format] : {std::pair("binary STL", v1::STL), {"binary PLY", v1::PLY}}) {
+        v1::DownloadMeshRequest request;
+        request.set_session(session);
+        request.set_representation(representation);
+        request.set_faces(faces);
+        request.set_format(format);
+        print_meshes(name, [&] { return download(client, request); });
+    }
 }
 
 /// Bytes of the server's memory for each of several readers that take one block and then none.
@@ -124,26 +207,28 @@ int main(int argc, char** argv) {
     if (!made) stop(made.error());
     std::printf(
         "| Encoding | Faces | Payload, MB | First stream, MB/s | MB/s, median of %d | First block, ms: first, median, most |"
-        " CPU seconds a GB: server, client | MB of the server a stalled reader |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
+        " Figures at the end, ms: first, median | CPU seconds a GB: server, client | MB of the server a stalled reader |\n"
+        "|---|--:|--:|--:|--:|--:|--:|--:|--:|\n",
         kRounds);
     for (const auto encoding : {v1::FLOAT64, v1::FLOAT32, v1::QUANTISED}) {
         const v1::SetResolutionRequest request = all_records(session, encoding, *made);
         const Stream first = receive(*client, request);
-        std::vector<double> rates, waits;
+        std::vector<double> rates, waits, ends;
         const double server_before = processor_seconds(pid), client_before = processor_seconds();
         for (int round = 0; round < kRounds; ++round) {
             const Stream again = receive(*client, request);
-            rates.push_back(again.payload / again.all / 1e6);
+            rates.push_back(again.payload / again.last_block / 1e6);
+            ends.push_back(again.end * 1e3);
             waits.push_back(again.first_block * 1e3);
         }
         const double gigabytes = kRounds * first.payload / 1e9;
         const double server_cost = (processor_seconds(pid) - server_before) / gigabytes;
         const double client_cost = (processor_seconds() - client_before) / gigabytes;
-        std::sort(rates.begin(), rates.end());
-        std::sort(waits.begin(), waits.end());
-        std::printf("| %s | %u | %.1f | %.0f | %.0f | %.1f, %.1f, %.1f | %.1f, %.1f | %.2f |\n",
+        std::printf("| %s | %u | %.1f | %.0f | %.0f | %.1f, %.1f, %.1f | %.1f, %.1f | %.1f, %.1f | %.2f |\n",
                     v1::RecordEncoding_Name(encoding).c_str(), made->faces_max(), first.payload / 1e6,
-                    first.payload / first.all / 1e6, rates[kRounds / 2], first.first_block * 1e3, waits[kRounds / 2],
-                    waits.back(), server_cost, client_cost, cost_of_stalled(server, pid, request) / 1e6);
+                    first.payload / first.last_block / 1e6, median(rates), first.first_block * 1e3, median(waits),
+                    *std::max_element(waits.begin(), waits.end()), first.end * 1e3, median(ends), server_cost, client_cost,
+                    cost_of_stalled(server, pid, request) / 1e6);
     }
+    print_all_meshes(*client, session, made->id(), std::clamp(30'000U, made->faces_min(), made->faces_max()));
 }

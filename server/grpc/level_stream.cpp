@@ -24,7 +24,7 @@ Expected<LevelParts::Step> LevelParts::next(v1::ProgressiveEvent& event) {
     if (choice_.encoding == RecordEncoding::kFloat64) return next_plain(event) ? Step::kMessage : Step::kEnd;
     if (Status taken = take_made(); !taken) return taken.error();
     if (made_.base && base_part_ < wire::base_mesh_parts(*made_.base)) {
-        *event.mutable_base_mesh() = wire::base_mesh_part(*made_.base, base_part_++);
+        send(wire::base_mesh_part(*made_.base, base_part_++), event);
         if (Status begun = make_block(); !begun) return begun.error();
         return Step::kMessage;
     }
@@ -43,6 +43,15 @@ Status LevelParts::make_block() {
     if (waiting_ || made_.block || (made_.encoded && record_ == plan_.last_record)) return Done{};
     if (made_.encoded) made_.block = made_.encoded->find(record_, plan_.last_record);
     return made_.block ? Status(Done{}) : begin_errand();
+}
+
+void LevelParts::send(v1::BaseMesh part, v1::ProgressiveEvent& event) const {
+    if (plan_.keyframe) {
+        part.set_first_record(static_cast<std::uint32_t>(plan_.first_record));
+    } else {
+        part.set_splits(static_cast<std::uint32_t>(plan_.level));
+    }
+    *event.mutable_base_mesh() = std::move(part);
 }
 
 void LevelParts::send(RecordBlock block, v1::ProgressiveEvent& event) {
@@ -95,8 +104,7 @@ bool LevelParts::next_regions(v1::ProgressiveEvent& event) {
 bool LevelParts::next_plain(v1::ProgressiveEvent& event) {
     const MultiresMesh& mrr = plan_.levels->mrr();
     if (base_part_ < base_parts_) {
-        *event.mutable_base_mesh() = wire::base_mesh_part(plain_base(), base_part_++, mrr.ghosts);
-        if (plan_.keyframe) event.mutable_base_mesh()->set_first_record(static_cast<std::uint32_t>(plan_.first_record));
+        send(wire::base_mesh_part(plain_base(), base_part_++, mrr.ghosts), event);
         return true;
     }
     if (next_regions(event)) return true;

@@ -37,6 +37,8 @@ private:
 
     [[nodiscard]] bool next_regions(v1::ProgressiveEvent& event);
     [[nodiscard]] bool next_plain(v1::ProgressiveEvent& event);
+    /// Sends a part of it, with what is the same in all of them.
+    void send(v1::BaseMesh part, v1::ProgressiveEvent& event) const;
     /// What the stream begins with: the coarsest mesh or a keyframe.
     [[nodiscard]] const TriangleMesh& plain_base() const { return plan_.keyframe ? *plan_.keyframe : plan_.levels->mrr().base; }
     [[nodiscard]] Status take_made();

@@ -137,6 +137,27 @@ TEST(ProgressiveMeshTest, EveryRecordIsUndoneByteForByte) {
     }
 }
 
+TEST(ProgressiveMeshTest, RoomForForeseenSplitsIsMadeOnceAndNeverForAnyNumber) {
+    const MultiresMesh mrr = make_mrr(test::torus(20, 12), 0.2);
+    auto mesh = ProgressiveMesh::from_base(mrr.base, mrr.ghosts);
+    ASSERT_TRUE(mesh);
+    ASSERT_GT(mrr.levels(), mrr.base.positions.size()) << "it would not have to grow";
+    ASSERT_LE(mrr.levels(), ProgressiveMesh::kMostForeseen * mrr.base.positions.size());
+    mesh->foresee(mrr.levels());
+    const Vec3* const positions = mesh->mesh().positions.data();
+    const Triangle* const faces = mesh->mesh().faces.data();
+    ASSERT_TRUE(mesh->refine(mrr.records.slice(0, 10)));
+    ASSERT_TRUE(mesh->refine(mrr.records.slice(10, mrr.records.size() - 10)));
+    EXPECT_EQ(mesh->mesh().positions.data(), positions);
+    EXPECT_EQ(mesh->mesh().faces.data(), faces);
+    EXPECT_EQ(mesh->visible(), mesh_at(mrr, mrr.levels()));
+
+    auto claimed = ProgressiveMesh::from_base(mrr.base, mrr.ghosts);
+    ASSERT_TRUE(claimed);
+    claimed->foresee(std::numeric_limits<std::uint32_t>::max());
+    EXPECT_LE(claimed->mesh().positions.capacity(), (ProgressiveMesh::kMostForeseen + 1) * mrr.base.positions.size());
+}
+
 TEST(ProgressiveMeshTest, CoarsenUndoesTheEditsOfAStepBegun) {
     auto mesh = ProgressiveMesh::from_base(test::tetrahedron());
     ASSERT_TRUE(mesh);

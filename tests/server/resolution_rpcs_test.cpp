@@ -65,6 +65,25 @@ TEST_F(ResolutionRpcsTest, WhoHoldsNothingGetsWhatDownloadMeshGives) {
     }
 }
 
+TEST_F(ResolutionRpcsTest, TheBaseMeshAnnouncesHowManySplitsCome) {
+    for (const v1::RecordEncoding encoding : {v1::FLOAT64, v1::FLOAT32}) {
+        for (const std::uint32_t faces : {made_.faces_min(), made_.faces(), made_.faces_max()}) {
+            v1::SetResolutionRequest wanted = request(0, faces);
+            wanted.set_encoding(encoding);
+            grpc::ClientContext context;
+            const auto reader = server_.stub().SetResolution(&context, wanted);
+            int parts = 0;
+            for (v1::ProgressiveEvent event; reader->Read(&event);) {
+                if (!event.has_base_mesh()) continue;
+                ++parts;
+                EXPECT_EQ(event.base_mesh().splits(), (faces - made_.faces_min()) / 2);
+            }
+            EXPECT_TRUE(reader->Finish().ok());
+            EXPECT_GT(parts, 0);
+        }
+    }
+}
+
 TEST_F(ResolutionRpcsTest, ClimbsAndDescendsAtRandom) {
     Received received = set_resolution(server_.stub(), request(0, made_.faces_min()));
     ASSERT_TRUE(received.status.ok() && received.mesh);

@@ -11,7 +11,8 @@ Status EventStream::take_base(const v1::BaseMesh& part) {
     if (!base_) base_.emplace();
     if (Status added = base_->add(part); !added) return added;
     if (!base_->complete() || !handlers_.on_base_mesh) return Done{};
-    return handlers_.on_base_mesh({base_->take(), base_->ghosts(), base_->grid(), base_->max_error(), base_->first_record()});
+    return handlers_.on_base_mesh(
+        {base_->take(), base_->ghosts(), base_->grid(), base_->max_error(), base_->first_record(), base_->splits()});
 }
 
 Status EventStream::take_block(v1::RecordBlock message) {

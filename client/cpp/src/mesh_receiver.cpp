@@ -26,6 +26,7 @@ Status MeshReceiver::begin(StreamBase base) {
     Before before;
     if (first != 0) before = on_keyframe() ? before_ : Before{held_, progressive_};
     if (Status begun = begin(std::move(base.mesh), base.ghosts); !begun) return begun;
+    progressive_->foresee(base.splits);
     before_ = std::move(before);
     first_record_ = first;
     codec_ = RecordCodec(base.grid);

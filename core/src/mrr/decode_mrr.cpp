@@ -65,6 +65,7 @@ private:
         Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(base, layout_.ghosts);
         if (!mesh) return error_at(Cause::kCorrupt, layout_.base_at, "the base mesh: " + mesh.error().message);
         mesh_ = *std::move(mesh);
+        mesh_->foresee(layout_.splits);
         stored_.mrr.ghosts = layout_.ghosts;
         stored_.mrr.ghost_faces = count_ghost_faces(base, layout_.ghosts);
         note_deviation(layout_.base_deviation);

@@ -197,6 +197,8 @@ void ProgressiveMesh::reserve(std::size_t splits, std::size_t flips, std::size_t
     make_room(lay_, splits + moves);
 }
 
+void ProgressiveMesh::foresee(std::size_t splits) { reserve(std::min(splits, kMostForeseen * mesh_.positions.size()), 0, 0); }
+
 Status ProgressiveMesh::refine(const RecordSpan& records) {
     assert(records.consistent());
     reserve(records.splits.size(), records.flips.size(), records.moves.size());

@@ -25,6 +25,8 @@ const mostCodedFan = 10;
 const layoutBit = 5;
 const newestLayout = 1;
 const isMean = 255;
+/** Steps of the grid along x, y and z from a mean, by what column Mean says. */
+const nearMean = Int32Array.from({ length: 81 }, (_, n) => (Math.floor(Math.floor(n / 3) / [9, 3, 1][n % 3]!) % 3) - 1);
 
 /** Decodes blocks onto a mesh, one after the other: the counterpart of core's RecordCodec. */
 export class RecordDecoder {
@@ -194,11 +196,8 @@ export class RecordDecoder {
     const { codes, mean, points } = this;
     const off = this.columns.byte(Column.Mean);
     if (off >= 27) throw new CorruptError("a position that is not on the grid");
-    for (let axis = 0, rest = off; axis < 3; ++axis) {
-      const unit = axis === 0 ? 9 : axis === 1 ? 3 : 1;
-      const steps = Math.trunc(rest / unit);
-      rest -= steps * unit;
-      const value = codes!.decode(centre[axis]! + mean[axis]!, steps - 1, axis);
+    for (let axis = 0; axis < 3; ++axis) {
+      const value = codes!.decode(centre[axis]! + mean[axis]!, nearMean[3 * off + axis]!, axis);
       if (value !== value) throw new CorruptError("a position that is not on the grid");
       points[to + axis] = value;
     }

@@ -21,6 +21,11 @@ export const enum Column {
 
 const largestToken = 16 + 27 * 8 + 7;
 
+// Of the symbols of numbers, how many bits follow and what they are added to: nobody can foresee whether any do, so this is looked
+// up, not branched to.
+const widths = Int32Array.from({ length: 256 }, (_, symbol) => (symbol < 16 ? 0 : ((symbol - 16) >>> 3) + 1));
+const bases = Int32Array.from(widths, (width, symbol) => (symbol < 16 ? symbol : (8 | (symbol & 7)) << width));
+
 /** What a zstd frame says it unpacks to; 0 where it says nothing. */
 function frameContentSize(frame: Uint8Array): number {
   if (frame.length < 6 || frame[0] !== 0x28 || frame[1] !== 0xb5 || frame[2] !== 0x2f || frame[3] !== 0xfd) return 0;
@@ -44,16 +49,16 @@ class BitColumn {
     return this.count - this.at;
   }
 
-  /** `width` is from 1 to 32, and no more than are left. */
+  /** `width` is from 0 to 31, and no more than are left. */
   read(width: number): number {
     const { bytes, at } = this;
     this.at = at + width;
     const first = at >>> 3;
     const shift = at & 7;
     const four = bytes[first]! | (bytes[first + 1]! << 8) | (bytes[first + 2]! << 16) | (bytes[first + 3]! << 24);
-    if (width + shift <= 32) return (four >>> shift) & (-1 >>> (32 - width));
-    const all = (four >>> shift) | (bytes[first + 4]! << (32 - shift));
-    return width === 32 ? all >>> 0 : all & ((1 << width) - 1);
+    const mask = (1 << width) - 1;
+    if (width + shift <= 32) return (four >>> shift) & mask;
+    return ((four >>> shift) | (bytes[first + 4]! << (32 - shift))) & mask;
   }
 }
 
@@ -127,7 +132,6 @@ export class ColumnReader {
   }
 
   private bits(of: BitColumn, width: number): number {
-    if (width === 0) return 0;
     if (width <= of.left) return of.read(width);
     this.short = true;
     return 0;
@@ -135,10 +139,8 @@ export class ColumnReader {
 
   number(column: number): number {
     const symbol = this.byte(column);
-    if (symbol < 16) return symbol;
     if (symbol > largestToken) this.short = true;
-    const width = ((symbol - 16) >>> 3) + 1;
-    return (((8 | (symbol & 7)) << width) | this.bits(this.rest, width)) >>> 0;
+    return (bases[symbol]! | this.bits(this.rest, widths[symbol]!)) >>> 0;
   }
 
   /** A number below `count` of which any is as likely. */

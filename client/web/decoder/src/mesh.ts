@@ -16,6 +16,9 @@ function grown<T extends Uint32Array | Int32Array | Float64Array | Uint8Array>(a
   return larger;
 }
 
+/** How many times as many vertices as there are. */
+const mostForeseen = 64;
+
 export const enum Kind {
   Split = 0,
   Flip = 1,
@@ -164,6 +167,14 @@ export class ProgressiveMesh {
     this.applied = grown(this.applied, this.records + splits + edits);
     this.edited = grown(this.edited, this.editedCount + edits);
     this.lay = grown(this.lay, 3 * (this.layCount + splits + edits));
+  }
+
+  /**
+   * Makes room for splits that a file or a stream announces, as far as they are at most 64 times as many as there are vertices: what
+   * is merely announced is no reason to take much memory.
+   */
+  foresee(splits: number): void {
+    this.reserve(Math.min(splits, mostForeseen * this.vertexCount), 0);
   }
 
   private place(v: number, places: Float64Array, from: number): void {

@@ -110,7 +110,8 @@ export class MrrFile {
   /** Of the blocks; empty in version 1. */
   readonly index: readonly BlockEntry[] = [];
   private readonly version: number;
-  private readonly splits: number;
+  /** Of which so many are splits. */
+  readonly splits: number;
   private readonly view: DataView;
   private readonly sections: Sections;
 

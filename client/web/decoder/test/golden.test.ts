@@ -26,6 +26,23 @@ function state(mesh: ProgressiveMesh): string {
   return `${mesh.vertexCount} ${mesh.faceCount} ${crc32c(bytesIn(positions))} ${crc32c(bytesIn(corners))}`;
 }
 
+test("room for splits that are foreseen is made once, and never for any number", () => {
+  const { base: mesh, grid, blocks } = read("records_1_quantised14_closed.golden");
+  const records = blocks.reduce((sum, { block }) => sum + block.count, 0);
+  const least = mesh.vertexCount;
+  mesh.foresee(records);
+  const { positions, around } = mesh;
+  assert.equal(positions.length, 3 * (least + records));
+  const decoder = new RecordDecoder(grid);
+  for (const { block } of blocks) decoder.decode(block, mesh);
+  assert.ok(mesh.positions === positions && mesh.around === around);
+  assert.equal(state(mesh), blocks.at(-1)!.after);
+
+  const { base: claimed } = read("records_1_quantised14_closed.golden");
+  claimed.foresee(0xffffffff);
+  assert.ok(claimed.positions.length <= 3 * 65 * least);
+});
+
 const names = readdirSync(directory).filter((name) => name.endsWith(".golden"));
 
 test("there are golden files of every encoding", () => assert.ok(names.length >= 6));

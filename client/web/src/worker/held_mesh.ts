@@ -11,8 +11,10 @@ export class HeldMesh {
   private readonly baseFaces: number;
   private readonly touched = new Set<number>();
 
-  constructor(base: { positions: Float64Array; corners: Uint32Array; ghosts: number }, grid: Grid) {
+  /** `splits`: how many are announced. */
+  constructor(base: { positions: Float64Array; corners: Uint32Array; ghosts: number }, grid: Grid, splits = 0) {
     this.mesh = new ProgressiveMesh(base.positions, base.corners, base.ghosts);
+    this.mesh.foresee(splits);
     this.decoder = new RecordDecoder(grid);
     this.baseFaces = this.mesh.faceCount;
     this.mesh.touched = (vertex) => this.touched.add(vertex);
@@ -108,7 +110,7 @@ export class BaseParts {
     if (crc32c(this.bytes) !== part.packedCrc32c >>> 0) throw new Error("the CRC-32C does not fit the base mesh");
     const counts = { vertices: part.vertices, faces: part.faces, ghosts: part.ghosts };
     const grid = gridOf(part);
-    return new HeldMesh({ ...unpackBase(this.bytes, counts, grid), ghosts: part.ghosts }, grid);
+    return new HeldMesh({ ...unpackBase(this.bytes, counts, grid), ghosts: part.ghosts }, grid, part.splits);
   }
 }
 

@@ -10,7 +10,7 @@ const turn = 60;
 export async function readMrr(file: Blob, read: (share: number) => Promise<void>): Promise<{ held: HeldMesh; description: unknown }> {
   try {
     const source = new MrrFile(new Uint8Array(await file.arrayBuffer()));
-    const held = new HeldMesh(source.base, source.grid);
+    const held = new HeldMesh(source.base, source.grid, source.splits);
     let due = performance.now() + turn;
     for (const block of source.blocks()) {
       held.take(block);

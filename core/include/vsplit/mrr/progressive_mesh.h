@@ -53,6 +53,11 @@ public:
     /// Makes room for so many records more at once.
     void reserve(std::size_t splits, std::size_t flips, std::size_t moves);
 
+    /// The same for splits that a file or a stream announces, as far as they are at most kMostForeseen times as many as there are
+    /// vertices: what is merely announced is no reason to take much.
+    void foresee(std::size_t splits);
+    static constexpr std::size_t kMostForeseen = 64;
+
     /// Undoes the edits after the last split, then the last `levels` splits, at most all, each with the edits before it: the mesh
     /// is a level again. O(records undone * ring). Needs no records.
     void coarsen(std::size_t levels);

@@ -71,6 +71,7 @@ struct StreamBase {
     PositionGrid grid;               ///< the positions that the stream's encoding can hold
     double max_error = 0;            ///< no coordinate of the stream differs from the exact one by more; model units
     std::uint32_t first_record = 0;  ///< 0, or of a keyframe, a mesh of a finer level: the first record that it has not in it
+    std::uint32_t splits = 0;        ///< how many the stream means to bring after it; 0 where that is not known
 };
 
 /// Who hears of a stream's events, on the thread that made the call. Empty handlers are skipped. A handler that returns an error
