@@ -142,6 +142,85 @@ TEST(RepairMeshTest, ACopyThatLooksTheOtherWayTearsNoHole) {
     EXPECT_EQ(repaired(finned, kSafe).mesh, good);
 }
 
+const Finding* find(const std::vector<Finding>& findings, Kind kind) {
+    const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.kind == kind; });
+    return found == findings.end() ? nullptr : &*found;
+}
+
+/// A cube whose face 0 is there twice, the first of region `kept` and the second of `dropped`; the others are of region 0.
+TriangleMesh cube_with_copy(std::uint32_t kept, std::uint32_t dropped, std::vector<FaceSet> sets) {
+    TriangleMesh mesh = test::cube();
+    mesh.regions.assign(mesh.faces.size(), 0);
+    mesh.regions[0] = kept;
+    mesh.faces.push_back(mesh.faces[0]);
+    mesh.regions.push_back(dropped);
+    mesh.sets = std::move(sets);
+    return mesh;
+}
+
+TEST(RepairMeshTest, TheKeptCopyGoesIntoTheSetsOfBoth) {
+    const auto has_face = [](const TriangleMesh& mesh, std::size_t set, std::uint32_t face) {
+        const auto& regions = mesh.sets[set].regions;
+        return std::find(regions.begin(), regions.end(), mesh.regions[face]) != regions.end();
+    };
+    for (const RepairOptions& options : {kSafe, kFull}) {
+        const RepairedMesh both = repaired(cube_with_copy(1, 2, {{"left", {1}}, {"right", {2}}, {"rest", {0}}}), options);
+        EXPECT_EQ(count(both.findings, Kind::kDroppedDuplicate), 1U);
+        EXPECT_TRUE(has_face(both.mesh, 0, 0));
+        EXPECT_TRUE(has_face(both.mesh, 1, 0));
+        EXPECT_FALSE(has_face(both.mesh, 2, 0));
+        EXPECT_TRUE(has_face(both.mesh, 2, 1));
+        EXPECT_EQ(count(both.findings, Kind::kLostFace), 0U);
+        EXPECT_EQ(count(both.findings, Kind::kEmptiedGroup), 0U);
+        // A region that is in the sets of both is there already, and one whose sets the kept one has too adds nothing.
+        const RepairedMesh known = repaired(cube_with_copy(1, 2, {{"left", {1, 3}}, {"right", {3, 2}}}), options);
+        EXPECT_EQ(known.mesh.regions[0], 3U);
+        const RepairedMesh within = repaired(cube_with_copy(1, 2, {{"all", {1, 2}}, {"left", {1}}}), options);
+        EXPECT_EQ(within.mesh.regions[0], 1U);
+    }
+    const RepairedMesh last = repaired(cube_with_copy(0xFFFFFFFF, 2, {{"left", {0xFFFFFFFF}}, {"right", {2}}}), kSafe);
+    EXPECT_EQ(last.mesh.regions[0], 1U) << "the first number that is free";
+}
+
+TEST(RepairMeshTest, WhatARegionLosesToACopyIsTold) {
+    // Of two regions in no set a face can have one.
+    const RepairedMesh lone = repaired(cube_with_copy(1, 2, {}), kSafe);
+    EXPECT_EQ(lone.mesh.regions[0], 1U);
+    ASSERT_EQ(count(lone.findings, Kind::kLostFace), 1U);
+    EXPECT_NE(find(lone.findings, Kind::kLostFace)->message.find("1 of region 2"), std::string::npos);
+    EXPECT_EQ(find(lone.findings, Kind::kLostFace)->elements, std::vector<std::uint32_t>{12});
+    ASSERT_EQ(count(lone.findings, Kind::kEmptiedGroup), 1U);
+    EXPECT_NE(find(lone.findings, Kind::kEmptiedGroup)->message.find("1 of region 2"), std::string::npos);
+    // A set is what a person named: it keeps the face.
+    const RepairedMesh named = repaired(cube_with_copy(0, 2, {{"right", {2}}}), kSafe);
+    EXPECT_EQ(named.mesh.regions[0], 2U);
+    EXPECT_EQ(count(named.findings, Kind::kLostFace), 1U);
+    EXPECT_EQ(count(named.findings, Kind::kEmptiedGroup), 0U);
+    // A wall of no thickness goes with its group.
+    TriangleMesh stacked = test::joined(test::cube(), test::cube(), Vec3(1, 0, 0));
+    ASSERT_TRUE(weld(stacked, 0));
+    const RepairedMesh wall = repaired(stacked, kSafe);
+    stacked.regions.assign(stacked.faces.size(), 1);
+    for (const std::uint32_t face : find(wall.findings, Kind::kDroppedDuplicate)->elements) stacked.regions[face] = 5;
+    stacked.sets = {{"wall", {5}}};
+    const RepairedMesh without = repaired(stacked, kSafe);
+    ASSERT_EQ(count(without.findings, Kind::kLostFace), 4U);
+    EXPECT_NE(find(without.findings, Kind::kEmptiedGroup)->message.find("4 of 'wall'"), std::string::npos);
+}
+
+TEST(RepairMeshTest, AGroupThatGoesWithASpeckIsTold) {
+    TriangleMesh mesh = test::joined(test::cube(), test::cube(), Vec3(3, 0, 0));
+    for (std::size_t v = test::cube().positions.size(); v < mesh.positions.size(); ++v)
+        mesh.positions[v] = Vec3(3, 0, 0) + 1e-4 * (mesh.positions[v] - Vec3(3, 0, 0));
+    mesh.regions.assign(mesh.faces.size(), 1);
+    std::fill(mesh.regions.begin() + 12, mesh.regions.end(), 2);
+    mesh.sets = {{"body", {1}}, {"crumb", {2}}};
+    const RepairedMesh clean = repaired(mesh, kFull);
+    EXPECT_EQ(count(clean.findings, Kind::kDroppedSpeck), 1U);
+    ASSERT_EQ(count(clean.findings, Kind::kEmptiedGroup), 1U);
+    EXPECT_NE(find(clean.findings, Kind::kEmptiedGroup)->message.find("12 of 'crumb'"), std::string::npos);
+}
+
 TEST(RepairMeshTest, AFaceWithoutAreaThatHangsOnABodyGoes) {
     TriangleMesh mesh = test::cube();
     const Triangle t = mesh.faces[0];

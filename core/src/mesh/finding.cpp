@@ -42,6 +42,10 @@ std::string_view finding_name(Finding::Kind kind) {
             return "DROPPED_SPECK";
         case Finding::Kind::kFilledHole:
             return "FILLED_HOLE";
+        case Finding::Kind::kLostFace:
+            return "LOST_FACE";
+        case Finding::Kind::kEmptiedGroup:
+            return "EMPTIED_GROUP";
     }
     return "UNKNOWN";
 }

@@ -88,9 +88,7 @@ void fill_holes(Draft& draft, double size, const ExecutionContext& context) {
         const bool is_rim = extent > kOuterShare * pieces.box[pieces.of_face[beside]].diagonal();
         if (loop.size() > kMostEdges || extent > size || is_rim) continue;
         const Vec3 place = draft.at(origin(mesh, loop.front()));
-        const std::vector<Triangle> faces = fill(mesh, hole_vertices(mesh, loop), edges);
-        mesh.faces.insert(mesh.faces.end(), faces.begin(), faces.end());
-        draft.parent.resize(mesh.faces.size(), draft.parent[beside]);
+        draft.add_faces(fill(mesh, hole_vertices(mesh, loop), edges), beside);
         draft.changes.add(Finding::Kind::kFilledHole, place, draft.parent[beside]);
     }
 }

@@ -108,10 +108,7 @@ Expected<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions
     if (options.mode != RepairMode::kNone) {
         repair(draft, options, context);
         if (context.cancelled()) return ExecutionContext::cancelled_error();
-        draft.mesh.regions.clear();
-        for (const std::uint32_t parent : draft.parent) {
-            if (!mesh.regions.empty()) draft.mesh.regions.push_back(mesh.regions[parent]);
-        }
+        report_emptied_groups(draft, mesh);
         static_cast<void>(drop_unused(draft.mesh));  // of faces there are none to drop
     }
     RepairedMesh repaired{std::move(draft.mesh), std::move(draft.parent), draft.changes.take()};

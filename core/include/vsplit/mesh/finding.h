@@ -34,6 +34,8 @@ struct Finding {
         kSplitVertex,
         kDroppedSpeck,
         kFilledHole,
+        kLostFace,      ///< dropped, and no other is in its region, or sets, for it
+        kEmptiedGroup,  ///< a set, or a region in no set, that had faces
     };
     static constexpr std::size_t kExamples = 16;
 

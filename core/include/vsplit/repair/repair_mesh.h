@@ -32,7 +32,8 @@ struct RepairOptions {
 /// A repaired mesh, and what was done to it.
 struct RepairedMesh {
     TriangleMesh mesh;
-    /// Of each face: the face of the input it is, or is a part of; of a filled hole a face beside it. Regions go over by it.
+    /// Of each face: the face of the input it is, or is a part of; of a filled hole a face beside it. It has that one's region; but
+    /// one that copies were dropped of is in their sets too, and may have a region that is new for that.
     std::vector<std::uint32_t> parent;
     /// First what was changed, by kind, each change with a place; `elements` are faces of the input. Then what still stands in
     /// the way, as `inspect` says it, and pairs of faces that intersect (never repaired); there `elements` are of `mesh`.
@@ -48,7 +49,8 @@ struct RepairedMesh {
 /// 1. MERGED_VERTEX: `weld`. DROPPED_FACE: faces with two equal corners.
 /// 2. DROPPED_DUPLICATE: faces on the same three vertices: one of those that look the same way is kept; of two that look opposite
 ///    ways neither where the edges around them stay closed without (a wall of no thickness); else the one that agrees with its
-///    neighbours, and of a sheet that no other face touches one.
+///    neighbours, and of a sheet that no other face touches one. The kept one goes into the sets of the others; LOST_FACE: what
+///    a region in no set, or a wall's, loses by that. EMPTIED_GROUP: a set, or region in no set, that has no face in the end.
 /// 3. FULL: STITCHED_VERTEX: vertices on borders become one with near ones, or are put into near border edges, the closest first;
 ///    so patches that were tessellated apart, with T-junctions, become one ([Date05] refs. 20, 21).
 /// 4. TURNED_FACE: neighbours agree on a side; as few as possible of a piece are turned; FULL: a closed mesh encloses a volume.
