@@ -310,6 +310,19 @@ TEST(RepairMeshTest, SmallHolesAreFilledAndRimsAreNot) {
     EXPECT_EQ(open.mesh, test::hemisphere(40, 10));
 }
 
+TEST(RepairMeshTest, AHoleAlongALineIsClosedWithoutAFaceOfNoArea) {
+    TriangleMesh mesh = test::icosphere(2);
+    const Triangle whole = mesh.faces[0];
+    const std::uint32_t middle = mesh.vertex_count();
+    mesh.positions.push_back((mesh.positions[whole[0]] + mesh.positions[whole[1]]) / 2);
+    mesh.faces[0] = {whole[0], middle, whole[2]};
+    mesh.faces.push_back({middle, whole[1], whole[2]});
+    const RepairedMesh closed = repaired(mesh, {.mode = RepairMode::kFull, .stitch = 0, .hole_size = 1});
+    EXPECT_EQ(count(closed.findings, Kind::kFilledHole), 1U);
+    EXPECT_EQ(count(closed.findings, Kind::kDegenerateFace), 0U);
+    EXPECT_TRUE(inspect(closed.mesh).closed);
+}
+
 TEST(RepairMeshTest, AHoleAroundAnEdgeOfOthersIsFilledWithoutMakingItTwice) {
     // A square hole whose one diagonal is an edge elsewhere, under it.
     TriangleMesh mesh;
@@ -440,7 +453,9 @@ TEST(RepairMeshTest, DirtyFilesBecomeManifolds) {
         if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
         const Expected<ReadResult> read = read_mesh_file(path, {});
         ASSERT_TRUE(read);
-        const MeshReport report = inspect(repaired(read->mesh, kFull).mesh);
+        const RepairedMesh mended = repaired(read->mesh, kFull);
+        EXPECT_EQ(count(mended.findings, Kind::kDegenerateFace), 0U) << name;
+        const MeshReport report = inspect(mended.mesh);
         EXPECT_TRUE(require_manifold(report)) << name;
         EXPECT_EQ(report.closed, closes) << name << ": " << report.boundary_edges;
         EXPECT_LT(report.components, 113U) << name;

@@ -64,6 +64,7 @@ std::vector<Triangle> fill(TriangleMesh& mesh, const std::vector<std::uint32_t>&
     for (const std::uint32_t v : vertices) corners.push_back(mesh.positions[v]);
     std::vector<Triangle> faces = triangulate_loop(corners, [&](std::uint32_t i, std::uint32_t j) {
         const auto [a, b] = std::minmax(vertices[i], vertices[j]);
+        if (corners[i] == corners[j]) return false;  // copies that were cut apart: both faces on such an edge would have no area
         return !std::binary_search(edges.begin(), edges.end(), std::pair(a, b));
     });
     if (faces.empty()) return fan(mesh, vertices);

@@ -45,6 +45,12 @@ void make_manifold(Draft& draft) {
     split_non_manifold(draft);
 }
 
+/// Faces without area go, and what that tears at borders is cut apart.
+void flatten(Draft& draft) {
+    remove_degenerate(draft);
+    make_manifold(draft);
+}
+
 /// The steps in the order that the header tells.
 void repair(Draft& draft, const RepairOptions& options, const ExecutionContext& context) {
     const double diagonal = bounding_box(draft.mesh).diagonal();
@@ -63,12 +69,13 @@ void repair(Draft& draft, const RepairOptions& options, const ExecutionContext& 
     drop_hanging_needles(draft);
     make_manifold(draft);
     if (context.cancelled()) return;
-    remove_degenerate(draft);
+    flatten(draft);
     if (context.cancelled()) return;
-    make_manifold(draft);
     if (full) {
         drop_specks(draft, options.speck_size.value_or(kSpeckShare * diagonal));
         fill_holes(draft, options.hole_size.value_or(kHoleShare * diagonal), context);
+        if (context.cancelled()) return;
+        flatten(draft);  // a hole whose border runs along a line is filled without area
         face_outward(draft);
     }
 }
