@@ -20,6 +20,8 @@ std::string_view finding_name(Finding::Kind kind) {
             return "UNUSED_VERTEX";
         case Finding::Kind::kCollapsedFace:
             return "COLLAPSED_FACE";
+        case Finding::Kind::kUnusedSet:
+            return "UNUSED_SET";
         case Finding::Kind::kSelfIntersection:
             return "SELF_INTERSECTION";
         case Finding::Kind::kMergedVertex:

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/quoted.h"
 #include "repair/steps.h"
 
 namespace vsplit {
@@ -47,7 +48,7 @@ void report_emptied_groups(Draft& draft, const TriangleMesh& input) {
         in_sets.insert(input.sets[s].regions.begin(), input.sets[s].regions.end());
         const std::vector<std::uint32_t>& now = draft.mesh.sets[s].regions;  // those it had, and unions
         if (std::none_of(now.begin(), now.end(), [&](std::uint32_t region) { return left.count(region) != 0; }))
-            report(input.sets[s].regions, "'" + input.sets[s].name + "'");
+            report(input.sets[s].regions, quoted(input.sets[s].name));
     }
     for (const auto& [region, faces] : before) {
         if (in_sets.count(region) == 0 && left.count(region) == 0) report({region}, "region " + std::to_string(region));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/quoted.h"
+
 namespace vsplit {
 namespace {
 
@@ -58,7 +60,7 @@ std::string RegionUnion::label(std::uint32_t region) const {
     if (sets.empty()) return "region " + std::to_string(region);
     std::string text;
     for (std::size_t i = 0; i < std::min(sets.size(), kShown); ++i)
-        text.append(i == 0 ? "'" : ", '").append(mesh_.sets[sets[i]].name).append("'");
+        text.append(i == 0 ? "" : ", ").append(quoted(mesh_.sets[sets[i]].name));
     return sets.size() > kShown ? text + ", ..." : text;
 }
 
