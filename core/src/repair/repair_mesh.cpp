@@ -104,9 +104,14 @@ void report_intersections(const TriangleMesh& mesh, std::vector<Finding>& findin
 
 Status check_options(const RepairOptions& options) {
     if (Status s = check_length(options.weld, "weld"); !s) return s;
-    if (Status s = check_length(options.stitch, "stitch"); !s) return s;
-    if (Status s = check_length(options.hole_size, "hole_size"); !s) return s;
-    return check_length(options.speck_size, "speck_size");
+    for (const auto& [length, field] : {std::pair(options.stitch, "stitch"), std::pair(options.hole_size, "hole_size"),
+                                        std::pair(options.speck_size, "speck_size")}) {
+        if (Status s = check_length(length, field); !s) return s;
+        if (length && options.mode != RepairMode::kFull)
+            return Error{Cause::kInvalidOption, std::string(field) + " is given; it is accepted with the repair FULL alone",
+                         field};
+    }
+    return Done{};
 }
 
 Expected<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options, const ExecutionContext& context) {
@@ -126,16 +131,17 @@ Expected<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions
     return repaired;
 }
 
-Expected<MeshReport> inspect_source(TriangleMesh& mesh, const WeldCounts& weld, std::optional<RepairMode> repair,
+Expected<MeshReport> inspect_source(TriangleMesh& mesh, const WeldCounts& weld, const std::optional<RepairOptions>& repair,
                                     const ExecutionContext& context) {
     if (!repair) return inspect(mesh, weld);
-    Expected<RepairedMesh> repaired = repair_mesh(mesh, {.mode = *repair}, context);
+    Expected<RepairedMesh> repaired = repair_mesh(mesh, *repair, context);
     if (!repaired) return repaired.error();
     mesh = std::move(repaired->mesh);
     MeshReport report = inspect(mesh, weld);
     std::vector<Finding> findings = std::move(repaired->findings);
     for (const Finding& f : report.findings) {
-        const bool of_the_weld = f.kind == Finding::Kind::kUnusedVertex || f.kind == Finding::Kind::kCollapsedFace;
+        const bool of_the_weld = f.kind == Finding::Kind::kUnusedVertex || f.kind == Finding::Kind::kCollapsedFace ||
+                                 f.kind == Finding::Kind::kUnusedSet;
         if (of_the_weld) findings.push_back(f);
     }
     report.findings = std::move(findings);

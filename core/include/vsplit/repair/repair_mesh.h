@@ -32,15 +32,16 @@ struct RepairOptions {
 /// A repaired mesh, and what was done to it.
 struct RepairedMesh {
     TriangleMesh mesh;
-    /// Of each face: the face of the input it is, or is a part of; of a filled hole a face beside it. It has that one's region; but
-    /// one that copies were dropped of is in their sets too, and may have a region that is new for that.
+    /// Of each face: the face of the input it is, or is a part of; of a filled hole a face beside it. It has that one's region;
+    /// but one that copies were dropped of is in their sets too, and may have a region that is new for that.
     std::vector<std::uint32_t> parent;
     /// First what was changed, by kind, each change with a place; `elements` are faces of the input. Then what still stands in
     /// the way, as `inspect` says it, and pairs of faces that intersect (never repaired); there `elements` are of `mesh`.
     std::vector<Finding> findings;
 };
 
-/// Whether `options` can be obeyed. \return INVALID_OPTION naming the field.
+/// Whether `options` can be obeyed: lengths are such, and those of FULL are given with it alone. \return INVALID_OPTION naming
+/// the field.
 [[nodiscard]] Status check_options(const RepairOptions& options);
 
 /// Makes a manifold of a mesh that is none, and with FULL a closed one where its holes are small.
@@ -58,7 +59,8 @@ struct RepairedMesh {
 ///    several fans becomes several, at the same place. Where both ends of such an edge stay whole, it gets a vertex in its
 ///    middle.
 /// 6. FLATTENED_FACE: faces without area are flipped or contracted away; those that hang on others by an edge, before 4.
-/// 7. FULL: DROPPED_SPECK, FILLED_HOLE: by the triangulation of least area; the only or outer border of a piece is no hole. Then 6
+/// 7. FULL: DROPPED_SPECK, FILLED_HOLE: by the triangulation of least area; the only or outer border of a piece is no hole. Then
+/// 6
 ///    again, for holes along a line.
 ///
 /// \pre every index is below the number of vertices, coordinates are finite.
@@ -70,7 +72,8 @@ struct RepairedMesh {
 /// What everybody does with a mesh just read: inspects it; where a repair is asked for, puts the repaired mesh in its place
 /// first. \return CANCELLED. The report's findings are the repair's, then what `weld` dropped. Without a repair nothing looks for
 /// self-intersections.
-[[nodiscard]] Expected<MeshReport> inspect_source(TriangleMesh& mesh, const WeldCounts& weld, std::optional<RepairMode> repair,
+[[nodiscard]] Expected<MeshReport> inspect_source(TriangleMesh& mesh, const WeldCounts& weld,
+                                                  const std::optional<RepairOptions>& repair,
                                                   const ExecutionContext& context = ExecutionContext());
 
 }  // namespace vsplit
