@@ -55,9 +55,9 @@ TEST(CutPolygonTest, ConvexOnesAreTheFanOfTheirFirstCorner) {
 
 TEST(CutPolygonTest, ACornerInTheMiddleOfASideMakesNoFaceOfNoArea) {
     const std::vector<std::vector<Vec3>> polygons = {
-        {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}},                                      // one
-        {{2, 2, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}},                                      // elsewhere
-        {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {4, 4, 0}},                // several
+        {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}},                                              // one
+        {{2, 2, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}},                                              // elsewhere
+        {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {4, 4, 0}},                        // several
         {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}},  // on all sides
         {{0, 0, 0}, {0.1, 0.3, 0}, {0.2, 0.6, 0}, {0.3, 0.9, 0}, {-1, 1, 0}},              // in the middle but for rounding
         {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 1, 0}, {1.5, 1, 0}, {1, 1, 0}, {0, 3, 0}}};  // of a dent

@@ -113,9 +113,9 @@ TEST(MeshFormatTest, CommentsMayBeLong) {
 }
 
 TEST(MeshFormatTest, DecksBehindAMebibyteOfCommentsAreToldByThem) {
-    for (const auto& [comment, format] : {std::pair{"$ a line of comment\n", MeshFormat::kBdf},
-                                          std::pair{"** a line of comment\n", MeshFormat::kInp},
-                                          std::pair{"# a line of comment\n", MeshFormat::kObj}}) {
+    for (const auto& [comment, format] :
+         {std::pair{"$ a line of comment\n", MeshFormat::kBdf}, std::pair{"** a line of comment\n", MeshFormat::kInp},
+          std::pair{"# a line of comment\n", MeshFormat::kObj}}) {
         std::string text;
         while (text.size() <= std::size_t{1} << 20) text += comment;
         EXPECT_EQ(detect(text + "whatever\n"), format);

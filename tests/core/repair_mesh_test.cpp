@@ -434,6 +434,8 @@ TEST(RepairMeshTest, StopsWhereverItIsCancelled) {
 TEST(RepairMeshTest, OptionsOutOfRangeAreRefused) {
     const auto field = [](const RepairOptions& options) { return repair_mesh(test::cube(), options).error().field; };
     EXPECT_EQ(field({.weld = -1}), "weld");
+    EXPECT_EQ(field({.mode = RepairMode::kFull, .stitch = -1}), "stitch");
+    EXPECT_EQ(field({.mode = RepairMode::kSafe, .hole_size = 1}), "hole_size") << "SAFE fills none";
     EXPECT_EQ(field({.stitch = std::numeric_limits<double>::quiet_NaN()}), "stitch");
     EXPECT_EQ(field({.hole_size = std::numeric_limits<double>::infinity()}), "hole_size");
     EXPECT_EQ(field({.speck_size = -0.5}), "speck_size");

@@ -204,12 +204,12 @@ Status ElementBuilder::check_members() {
     for (const Set& s : sets_) {
         for (const Range& range : s.ranges) {
             if (range.must == Must::kOneExists && !one_exists(range)) {
-                return error(s, range, "elements " + std::to_string(range.first) + " to " + std::to_string(range.last) +
-                                           ", of which the file defines none");
+                return error(s, range,
+                             "elements " + std::to_string(range.first) + " to " + std::to_string(range.last) +
+                                 ", of which the file defines none");
             }
             for (std::int64_t id = range.first; range.must == Must::kAllExist && id <= range.last; ++id) {
-                if (!is_defined(id))
-                    return error(s, range, "element " + std::to_string(id) + ", which the file does not define");
+                if (!is_defined(id)) return error(s, range, "element " + std::to_string(id) + ", which the file does not define");
             }
         }
     }
@@ -271,7 +271,8 @@ void ElementBuilder::make_regions() {
     std::erase_if(mesh_.sets, [](const FaceSet& s) { return s.name.empty(); });
 }
 
-/// Regions that no face has; and where no face has a region at all, the regions. Sets without a face stay: who reads tells of them.
+/// Regions that no face has; and where no face has a region at all, the regions. Sets without a face stay: who reads tells of
+/// them.
 void ElementBuilder::drop_empty_regions() {
     const std::set<std::uint32_t> used(mesh_.regions.begin(), mesh_.regions.end());
     for (FaceSet& s : mesh_.sets) std::erase_if(s.regions, [&](std::uint32_t region) { return used.count(region) == 0; });

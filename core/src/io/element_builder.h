@@ -56,8 +56,8 @@ public:
 
     /// The mesh. Where sets have members, faces that are in the same sets are a region, numbered from 1 in order of their first
     /// face, and 0 are those in none; else regions are those given with the elements, none when all are 0.
-    /// \return INDEX_OUT_OF_RANGE for a node, or an element of a set, that does not exist; MALFORMED_INPUT for an element that is defined twice, a node
-    /// that is so in different places, or an unknown set; UNSUPPORTED for a file of solids; LIMIT_EXCEEDED.
+    /// \return INDEX_OUT_OF_RANGE for a node, or an element of a set, that does not exist; MALFORMED_INPUT for an element that is
+    /// defined twice, a node that is so in different places, or an unknown set; UNSUPPORTED for a file of solids; LIMIT_EXCEEDED.
     [[nodiscard]] Expected<TriangleMesh> take();
 
 private:
@@ -121,7 +121,7 @@ private:
     std::vector<Node> nodes_;
     std::vector<std::size_t> node_places_;
     std::vector<Corner> corners_;
-    std::vector<Node> elements_;  // id and first face, ascending by id
+    std::vector<Node> elements_;         // id and first face, ascending by id
     std::vector<std::int64_t> skipped_;  // elements without a face
     std::vector<Set> sets_;
     std::map<std::string, std::size_t> set_numbers_;   // by name in upper case

@@ -69,7 +69,9 @@ public:
         // One property, and that the first, says nothing: a file needs some.
         const auto is_one = [](std::uint32_t region) { return region == 1; };
         const auto is_unused = [](const FaceSet& set) { return set.regions.empty(); };
-        if (mesh && std::all_of(mesh->sets.begin(), mesh->sets.end(), is_unused) && std::all_of(mesh->regions.begin(), mesh->regions.end(), is_one)) mesh->regions.clear();
+        if (mesh && std::all_of(mesh->sets.begin(), mesh->sets.end(), is_unused) &&
+            std::all_of(mesh->regions.begin(), mesh->regions.end(), is_one))
+            mesh->regions.clear();
         return mesh;
     }
 

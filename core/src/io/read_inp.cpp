@@ -292,8 +292,8 @@ private:
         return builder_.add_element(numbers[0], std::span(numbers).subspan(1, element_.corners), at_line(element_line_));
     }
 
-    /// Of elements that are passed over unread a line begins with a number: the element's, or where they go on over lines a node's,
-    /// which then passes for an element's.
+    /// Of elements that are passed over unread a line begins with a number: the element's, or where they go on over lines a
+    /// node's, which then passes for an element's.
     Status pass_over(std::string_view field) {
         const std::optional<std::int64_t> id = parse_integer(field);
         if (id && *id >= 0 && *id < InpAssembly::kNumbers) builder_.skip_element(assembly_.number(scope_, *id));
