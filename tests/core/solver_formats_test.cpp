@@ -346,6 +346,18 @@ TEST(SolverFormatsTest, NamesThatNoFaceHasAreTold) {
     EXPECT_EQ(gmsh->weld.unused_sets, std::vector<std::string>{"gone"});
 }
 
+TEST(SolverFormatsTest, ElementsOfGmshLieOnSurfacesThatThereAre) {
+    std::string text = write_mesh(cube(), MeshFormat::kMshAscii);
+    const std::size_t block = text.find("\n2 1 2 12 ");
+    ASSERT_NE(block, std::string::npos);
+    text.replace(block, 5, "\n2 9 ");
+    const Expected<ReadResult> result = read(text);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().cause, Cause::kIndexOutOfRange);
+    EXPECT_NE(result.error().message.find(": elements are on surface 9, which $Entities does not define"), std::string::npos)
+        << result.error().message;
+}
+
 TEST(SolverFormatsTest, NumbersOfInputDecksMayBeFortrans) {
     const TriangleMesh mesh =
         must_read("*NODE\n1, 0.D0, 0.d0, 0\n2, 1.D+00, 0, -2.5d-1\n3, 0, 1.5-1, 1E3\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n");

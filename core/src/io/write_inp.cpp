@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <map>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/elements.h"
