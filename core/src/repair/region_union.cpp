@@ -31,9 +31,9 @@ RegionUnion::RegionUnion(TriangleMesh& mesh) : mesh_(mesh), taken_(mesh.regions.
 }
 
 const RegionUnion::Sets& RegionUnion::sets_of(std::uint32_t region) const {
-    static const Sets kNone;
+    static const Sets none;
     const auto found = sets_of_.find(region);
-    return found == sets_of_.end() ? kNone : found->second;
+    return found == sets_of_.end() ? none : found->second;
 }
 
 RegionUnion::Joined RegionUnion::join(std::uint32_t kept, std::uint32_t dropped) {
