@@ -469,6 +469,27 @@ Expected<std::optional<RepairMode>> from_proto(v1::Repair repair) {
     }
 }
 
+namespace {
+
+template <class Request>
+Expected<std::optional<RepairOptions>> repair_in(const Request& request) {
+    const Expected<std::optional<RepairMode>> mode = from_proto(request.repair());
+    if (!mode) return mode.error();
+    RepairOptions options{.mode = mode->value_or(RepairMode::kNone)};
+    if (request.has_stitch()) options.stitch = request.stitch();
+    if (request.has_hole_size()) options.hole_size = request.hole_size();
+    if (request.has_speck_size()) options.speck_size = request.speck_size();
+    if (*mode) return std::optional(options);
+    if (Status valid = check_options(options); !valid) return valid.error();
+    return std::optional<RepairOptions>();
+}
+
+}  // namespace
+
+Expected<std::optional<RepairOptions>> repair_of(const v1::CreateSessionRequest& request) { return repair_in(request); }
+
+Expected<std::optional<RepairOptions>> repair_of(const v1::UploadMeshRequest& request) { return repair_in(request); }
+
 v1::RecordEncoding to_proto(RecordEncoding encoding) {
     switch (encoding) {
         case RecordEncoding::kFloat64:

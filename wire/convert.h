@@ -94,6 +94,10 @@ void set_groups(const FaceGroups& groups, Proto& proto) {
 [[nodiscard]] Expected<std::optional<QualityProfile>> from_proto(v1::QualityProfile profile);
 /// Empty where none is named. \return INVALID_OPTION for a number that names none.
 [[nodiscard]] Expected<std::optional<RepairMode>> from_proto(v1::Repair repair);
+/// What a request asks to be mended, its lengths unchecked; empty where nothing is to be. \return INVALID_OPTION for lengths
+/// without a repair.
+[[nodiscard]] Expected<std::optional<RepairOptions>> repair_of(const v1::CreateSessionRequest& request);
+[[nodiscard]] Expected<std::optional<RepairOptions>> repair_of(const v1::UploadMeshRequest& request);
 
 [[nodiscard]] v1::RecordEncoding to_proto(RecordEncoding encoding);
 

@@ -21,7 +21,7 @@ Expected<Enum> named(const std::string& name, const NameOf& name_of, Enum last) 
 }
 
 Expected<Finding> finding_of(const v1::Finding& proto) {
-    const Expected<Finding::Kind> kind = named(proto.kind(), finding_name, Finding::Kind::kFilledHole);
+    const Expected<Finding::Kind> kind = named(proto.kind(), finding_name, Finding::Kind::kEmptiedGroup);
     if (!kind) return kind.error();
     Finding finding;
     finding.kind = *kind;

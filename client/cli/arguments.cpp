@@ -86,6 +86,12 @@ void add_input(CLI::App& verb, Arguments& a, const char* what) {
         "Mend a broken mesh: none says what stands in the way; safe cuts apart and turns faces; full stitches cracks and fills "
         "small holes too. Default: nothing is mended")
         ->type_name("R");
+    add_real(verb, "--stitch", a.stitch,
+             "With --repair full, borders this close are joined; length, >= 0. Default: 0.2 % of the diagonal of the mesh's box");
+    add_real(verb, "--hole-size", a.hole_size,
+             "With --repair full, holes with a box of at most this diagonal are filled; length, >= 0. Default: 5 %");
+    add_real(verb, "--speck-size", a.speck_size,
+             "With --repair full, pieces with a box of a smaller diagonal are dropped; length, >= 0. Default: 0.1 %");
     add_unit(verb, "--unit", a.unit,
              "Unit of the lengths in IN, where it does not say it: um, mm, cm, m, in or ft. 3MF says it; default: not known");
 }

@@ -29,6 +29,9 @@ struct Arguments {
     unsigned threads = 0;  ///< 0: all cores
     double weld = 0;
     v1::Repair repair = v1::REPAIR_UNSPECIFIED;
+    std::optional<double> stitch;  ///< these three with a full repair alone
+    std::optional<double> hole_size;
+    std::optional<double> speck_size;
     std::optional<LengthUnit> unit;             ///< of IN, where it does not say it
     std::optional<LengthUnit> output_unit;      ///< of the outputs; empty: as IN
     std::optional<std::uint32_t> faces;         ///< info, quality, resolution: the resolution to show

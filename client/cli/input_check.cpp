@@ -1,5 +1,7 @@
 #include "cli/input_check.h"
 
+#include "vsplit/repair/repair_mesh.h"
+
 namespace vsplit::cli {
 namespace {
 
@@ -30,6 +32,12 @@ bool is_about_content(const Error& error) {
 }  // namespace
 
 Status check_reading(const Arguments& a) {
+    if (Status full = check_options({.mode = a.repair == v1::FULL ? RepairMode::kFull : RepairMode::kNone,
+                                     .stitch = a.stitch,
+                                     .hole_size = a.hole_size,
+                                     .speck_size = a.speck_size});
+        !full)
+        return full;
     const bool repairs = a.repair != v1::REPAIR_UNSPECIFIED;
     if ((!repairs && a.weld == 0) || reads_mesh(a)) return Done{};
     const std::string what = a.session.empty() ? "a .vsplit file holds" : "the session holds";
@@ -39,8 +47,7 @@ Status check_reading(const Arguments& a) {
 }
 
 Error in_file(Error error, const std::string& path) {
-    const bool names_it = error.message.find(path) != std::string::npos;
-    if (is_about_content(error) && !names_it) error.message = path + ": " + error.message;
+    if (is_about_content(error)) error.message = path + ": " + error.message;
     return error;
 }
 

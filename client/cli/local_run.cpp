@@ -50,9 +50,11 @@ struct Source {
 Expected<Source> read_source(const std::string& path, const Arguments& a) {
     Expected<ReadResult> read = read_mesh_file(path, {.weld = a.weld, .unit = a.unit});
     if (!read) return in_file(read.error(), path);
-    const Expected<std::optional<RepairMode>> repair = wire::from_proto(a.repair);
-    if (!repair) return repair.error();
-    Expected<MeshReport> report = inspect_source(read->mesh, read->weld, *repair);
+    const Expected<std::optional<RepairMode>> mode = wire::from_proto(a.repair);
+    if (!mode) return mode.error();
+    std::optional<RepairOptions> repair;
+    if (*mode) repair = {.mode = **mode, .stitch = a.stitch, .hole_size = a.hole_size, .speck_size = a.speck_size};
+    Expected<MeshReport> report = inspect_source(read->mesh, read->weld, repair);
     if (!report) return report.error();
     report->unit = read->unit;
     return Source{std::move(read->mesh), *std::move(report)};

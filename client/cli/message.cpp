@@ -8,6 +8,7 @@
 #include "cli/number_text.h"
 #include "cli/outcome.h"
 #include "wire/features.h"
+#include "wire/utf8.h"
 
 namespace vsplit::cli {
 namespace {
@@ -42,6 +43,9 @@ std::string option_of(const std::string& field) {
                                                                       {"sizing.min_size", "--min-size"},
                                                                       {"weld", "--weld"},
                                                                       {"repair", "--repair"},
+                                                                      {"stitch", "--stitch"},
+                                                                      {"hole_size", "--hole-size"},
+                                                                      {"speck_size", "--speck-size"},
                                                                       {"unit", "--unit"},
                                                                       {"format", "--format"},
                                                                       {"order", "--order"},
@@ -84,9 +88,16 @@ std::string named(const v1::Violation& violation) {
 
 }  // namespace
 
+std::string printable(std::string_view text) {
+    std::string shown = wire::valid_utf8(text, text.size() + 3);
+    std::replace_if(
+        shown.begin(), shown.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
+    return shown;
+}
+
 std::string error_message(const Error& error) {
     if (error.cause == Cause::kCancelled) return "vsplit: cancelled\n";
-    std::string text = "vsplit: " + std::string(cause_name(error.cause)) + ": " + error.message;
+    std::string text = "vsplit: " + std::string(cause_name(error.cause)) + ": " + printable(error.message);
     const std::string option = option_of(error.field);
     const std::string_view help = option.empty() ? help_of(error.cause) : option;
     if (!help.empty()) text.append(" (").append(help).append(")");
@@ -130,7 +141,7 @@ std::string nearest_note(std::uint32_t asked, const v1::Representation& made) {
 std::string finding_messages(const v1::Representation& made) {
     std::string text;
     for (const v1::Finding& finding : made.source_findings())
-        text += "vsplit: finding: " + finding.kind() + ": " + finding.message() + "\n";
+        text += "vsplit: finding: " + finding.kind() + ": " + printable(finding.message()) + "\n";
     return text;
 }
 

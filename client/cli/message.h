@@ -17,6 +17,9 @@ namespace vsplit::cli {
 /// A line for each bound that is broken: which, how often, the worst, why. Empty when all hold.
 [[nodiscard]] std::string violation_messages(const v1::Representation& made);
 
+/// `text` for a terminal: bytes that are no UTF-8 and control characters, which a file may hold, are question marks.
+[[nodiscard]] std::string printable(std::string_view text);
+
 /// What stands behind a length: " mm"; empty where the unit is not known.
 [[nodiscard]] std::string unit_suffix(std::optional<LengthUnit> unit);
 

@@ -17,6 +17,9 @@ client::UploadOptions upload_options(const Arguments& a, ProgressBar& progress) 
     client::UploadOptions options;
     options.weld = a.weld;
     options.repair = a.repair;
+    options.stitch = a.stitch;
+    options.hole_size = a.hole_size;
+    options.speck_size = a.speck_size;
     options.unit = a.unit;
     options.on_progress = [&progress](std::uint64_t sent, std::uint64_t total) {
         progress.show("upload", static_cast<double>(sent) / static_cast<double>(total), grouped(sent >> 20) + " MiB");

@@ -99,7 +99,7 @@ std::string group_text(const v1::FaceGroup& group) {
     for (const std::uint32_t region : group.regions()) regions += (regions.empty() ? "" : ", ") + std::to_string(region);
     const std::string faces = counted(group.faces(), "face", "faces");
     if (group.name().empty()) return "region " + regions + ": " + faces;
-    return group.name() + ": " + faces + (group.regions_size() == 1 ? ", region " : ", regions ") + regions;
+    return printable(group.name()) + ": " + faces + (group.regions_size() == 1 ? ", region " : ", regions ") + regions;
 }
 
 /// A line for each of the first groups of a mesh.
@@ -130,7 +130,7 @@ std::string text_of(const v1::MeshSummary& m, bool detailed, const std::string& 
         text += line("box", point(m.bounding_box().min()) + " to " + point(m.bounding_box().max()) + unit);
     text += quality_lines(m.quality(), unit);
     text += group_lines(m);
-    for (const v1::Finding& finding : m.findings()) text += line("finding", finding.kind() + ": " + finding.message());
+    for (const v1::Finding& finding : m.findings()) text += line("finding", finding.kind() + ": " + printable(finding.message()));
     return text + details(m.quality(), detailed, unit);
 }
 

@@ -44,7 +44,7 @@ Status create_session(service::MeshingService& service, const service::Caller& c
                       const v1::CreateSessionRequest& request, v1::Session& response) {
     const Expected<std::optional<MeshFormat>> format = wire::from_proto(request.format());
     if (!format) return format.error();
-    const Expected<std::optional<RepairMode>> repair = wire::from_proto(request.repair());
+    const Expected<std::optional<RepairOptions>> repair = wire::repair_of(request);
     if (!repair) return repair.error();
     const Expected<std::optional<LengthUnit>> unit = wire::from_proto(request.unit());
     if (!unit) return unit.error();

@@ -19,7 +19,7 @@ Error shutting_down() { return {Cause::kUnavailable, "the server is shutting dow
 Expected<service::UploadSettings> settings_of(const v1::UploadMeshRequest& first) {
     const Expected<std::optional<MeshFormat>> format = wire::from_proto(first.format());
     if (!format) return format.error();
-    const Expected<std::optional<RepairMode>> repair = wire::from_proto(first.repair());
+    const Expected<std::optional<RepairOptions>> repair = wire::repair_of(first);
     if (!repair) return repair.error();
     const Expected<std::optional<LengthUnit>> unit = wire::from_proto(first.unit());
     if (!unit) return unit.error();
@@ -110,6 +110,9 @@ Status UploadStream::begin() {
     first_.set_weld(part_.weld());
     first_.set_repair(part_.repair());
     first_.set_unit(part_.unit());
+    if (part_.has_stitch()) first_.set_stitch(part_.stitch());
+    if (part_.has_hole_size()) first_.set_hole_size(part_.hole_size());
+    if (part_.has_speck_size()) first_.set_speck_size(part_.speck_size());
     if (part_.has_size()) first_.set_size(part_.size());
     return Done{};
 }
@@ -120,6 +123,12 @@ Status UploadStream::check_repeated() const {
     if (part_.weld() != 0 && part_.weld() != first_.weld()) return changed("weld");
     if (part_.repair() != v1::REPAIR_UNSPECIFIED && part_.repair() != first_.repair()) return changed("repair");
     if (part_.unit() != v1::LENGTH_UNIT_UNSPECIFIED && part_.unit() != first_.unit()) return changed("unit");
+    const auto differs = [](bool given, double now, bool known, double first) { return given && (!known || now != first); };
+    if (differs(part_.has_stitch(), part_.stitch(), first_.has_stitch(), first_.stitch())) return changed("stitch");
+    if (differs(part_.has_hole_size(), part_.hole_size(), first_.has_hole_size(), first_.hole_size()))
+        return changed("hole_size");
+    if (differs(part_.has_speck_size(), part_.speck_size(), first_.has_speck_size(), first_.speck_size()))
+        return changed("speck_size");
     if (part_.has_size() && (!first_.has_size() || part_.size() != first_.size())) return changed("size");
     return Done{};
 }

@@ -15,7 +15,7 @@ Status check_settings(const MeshSettings& settings) {
     TriangleMesh none;  // the rule for tolerances is the weld's; asked with nothing to merge it costs nothing
     const Expected<WeldCounts> welded = weld(none, settings.weld);
     if (!welded) return welded.error();
-    return Done{};
+    return settings.repair ? check_options(*settings.repair) : Done{};
 }
 
 namespace {

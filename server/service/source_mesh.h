@@ -18,10 +18,10 @@ namespace vsplit::service {
 
 /// How an uploaded file is to be read.
 struct MeshSettings {
-    std::optional<MeshFormat> format;    ///< told from the bytes when empty
-    double weld = 0;                     ///< length, model units; 0 merges exactly equal vertices
-    std::optional<RepairMode> repair{};  ///< after the weld; none when empty
-    std::optional<LengthUnit> unit{};    ///< of the lengths, where the file does not say it
+    std::optional<MeshFormat> format;       ///< told from the bytes when empty
+    double weld = 0;                        ///< length, model units; 0 merges exactly equal vertices
+    std::optional<RepairOptions> repair{};  ///< after the weld; none when empty
+    std::optional<LengthUnit> unit{};       ///< of the lengths, where the file does not say it
 };
 
 /// Whether `settings` can be obeyed, before any byte is there. \return INVALID_OPTION. O(1).

@@ -419,6 +419,44 @@ TEST_F(CommandLineTest, RepairMendsAndTells) {
     EXPECT_EQ(json_of<v1::Representation>(run({"info", file("mended.vsplit"), "--json"})).source_findings_size(), 0);
     EXPECT_NE(run({"info", path, "--repair", "safe"}).out.find("TURNED_FACE: 1 faces"), std::string::npos);
     EXPECT_NE(run({"info", path, "--repair", "none"}).out.find("INCONSISTENT_EDGE"), std::string::npos);
+    EXPECT_FALSE(json_of<v1::MeshSummary>(run({"info", path, "--repair", "full", "--hole-size", "1e-3", "--json"})).closed());
+    // A piece of half the size goes where it is a speck.
+    const std::string two = mesh_file("two.ply", test::joined(test::torus(20, 10), test::icosphere(2), Vec3(9, 0, 0)));
+    const auto pieces = [&](const char* size) {
+        return json_of<v1::MeshSummary>(run({"info", two, "--repair", "full", "--speck-size", size, "--json"})).components();
+    };
+    EXPECT_EQ(pieces("1"), 2U);
+    EXPECT_EQ(pieces("3.5"), 1U);
+    // A gap of 0.01 between two squares.
+    const TriangleMesh sheet = test::square(4);
+    const double width = bounding_box(sheet).max.x() - bounding_box(sheet).min.x();
+    const std::string cracked = mesh_file("cracked.ply", test::joined(sheet, sheet, Vec3(width + 0.01, 0, 0)));
+    const auto parts = [&](const char* stitch) {
+        return json_of<v1::MeshSummary>(run({"info", cracked, "--repair", "full", "--stitch", stitch, "--json"})).components();
+    };
+    EXPECT_EQ(parts("1e-3"), 2U);
+    EXPECT_EQ(parts("0.02"), 1U);
+}
+
+TEST_F(CommandLineTest, ErrorsNameTheFileWhateverItHolds) {
+    const std::string path = file("x.obj");
+    std::ofstream(path) << "v 0 0 " << path << "\n";
+    const CommandResult told = run({"info", path});
+    EXPECT_NE(told.err.find("vsplit: MALFORMED_INPUT: " + path + ": line 1: "), std::string::npos) << told.err;
+}
+
+TEST_F(CommandLineTest, NoBytesOfAFileReachTheTerminalRaw) {
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (const std::string& text : {vertices + "g \xff\x1b[31mwall\nf 1 2 3\n", vertices + "f 1 2 3\n\xff\x1b[31m\n",
+                                    std::string("GRID,1,,0.,0.,0.\nCTRI\xff\x1b[31m,1,1,1,2,3\n"),
+                                    std::string("*NODE, SYSTEM=\xff\x1b[31m\n1, 0, 0, 0\n")}) {
+        std::ofstream(file("raw"), std::ios::binary) << text;
+        const CommandResult told = run({"info", file("raw")});
+        const std::string all = told.out + told.err;
+        EXPECT_FALSE(all.empty());
+        EXPECT_EQ(all.find('\x1b'), std::string::npos) << text;
+        EXPECT_EQ(all.find('\xff'), std::string::npos) << text;
+    }
 }
 
 TEST_F(CommandLineTest, GroupsAreListedOfMeshesAndRepresentations) {
@@ -562,6 +600,9 @@ TEST_F(CommandLineTest, RefusesWithCauseAndOption) {
         {{"control", cube, "--min-size", "3", "--max-size", "2"}, "at most max_size, which is 2 (--min-size)"},
         {{"control", cube, "--subdivisions", "13"}, "(--subdivisions)"},
         {{"info", cube, "--weld", "-1"}, "(--weld)"},
+        {{"info", cube, "--hole-size", "1"}, "(--hole-size)"},
+        {{"info", cube, "--repair", "safe", "--stitch", "1"}, "(--stitch)"},
+        {{"info", cube, "--repair", "full", "--speck-size", "-1"}, "(--speck-size)"},
         {{"info", cube, "--unit", "yd"}, "accepted is one of centimetre, cm, foot, ft, in, inch, m, metre"},
         {{"improve", cube, "--subdivide", "0.3", "-o", file("cube.ply"), "--output-unit", "m"}, "(--unit)"},
         {{"info", cube, "-o", file("cube.3mf")}, "a 3mf file says its unit"},

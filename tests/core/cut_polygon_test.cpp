@@ -51,8 +51,30 @@ TEST(CutPolygonTest, ConvexOnesAreTheFanOfTheirFirstCorner) {
     }
     EXPECT_EQ(cut_polygon(polygon), fan);
     EXPECT_EQ(cut_polygon(turned(polygon, 1, 2)), fan);
-    const std::vector<Vec3> with_a_middle = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}};
-    EXPECT_EQ(cut_polygon(with_a_middle), (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(CutPolygonTest, ACornerInTheMiddleOfASideMakesNoFaceOfNoArea) {
+    const std::vector<std::vector<Vec3>> polygons = {
+        {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}},                                              // one
+        {{2, 2, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}},                                              // elsewhere
+        {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {4, 4, 0}},                        // several
+        {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}},  // on all sides
+        {{0, 0, 0}, {0.1, 0.3, 0}, {0.2, 0.6, 0}, {0.3, 0.9, 0}, {-1, 1, 0}},              // in the middle but for rounding
+        {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 1, 0}, {1.5, 1, 0}, {1, 1, 0}, {0, 3, 0}}};  // of a dent
+    for (const std::vector<Vec3>& polygon : polygons) {
+        for (std::size_t first = 0; first < polygon.size(); ++first) {
+            std::vector<Vec3> moved = polygon;
+            std::rotate(moved.begin(), moved.begin() + static_cast<std::ptrdiff_t>(first), moved.end());
+            for (const std::vector<Vec3>& seen : {moved, turned(moved, 1, 2)}) {
+                expect_no_fold(seen);
+                for (const Triangle& t : cut_polygon(seen)) EXPECT_GT(area_of(seen, t).norm(), 1e-3);
+            }
+        }
+    }
+    // Of a side of very many corners some cut is made, whatever it takes.
+    std::vector<Vec3> comb = {{0, 1, 0}};
+    for (int i = 0; i <= 20000; ++i) comb.emplace_back(i, 0, 0);
+    EXPECT_EQ(cut_polygon(comb).size(), comb.size() - 2);
 }
 
 TEST(CutPolygonTest, ConcaveOnesDoNotFold) {

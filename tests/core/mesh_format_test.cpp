@@ -112,6 +112,30 @@ TEST(MeshFormatTest, CommentsMayBeLong) {
     EXPECT_EQ(detect("ply\n" + times(500, "comment a line\n") + "format binary_little_endian 1.0\n"), MeshFormat::kPlyBinary);
 }
 
+TEST(MeshFormatTest, DecksBehindAMebibyteOfCommentsAreToldByThem) {
+    for (const auto& [comment, format] :
+         {std::pair{"$ a line of comment\n", MeshFormat::kBdf}, std::pair{"** a line of comment\n", MeshFormat::kInp},
+          std::pair{"# a line of comment\n", MeshFormat::kObj}}) {
+        std::string text;
+        while (text.size() <= std::size_t{1} << 20) text += comment;
+        EXPECT_EQ(detect(text + "whatever\n"), format);
+    }
+}
+
+TEST(MeshFormatTest, EveryKeywordThatTheObjReaderKnowsTellsAnObj) {
+    for (const char* word : {"v", "fo", "vp", "cstype", "deg", "curv", "surf", "call", "usemap", "bevel", "trace_obj", "csh"})
+        EXPECT_EQ(detect(std::string(word) + " 1 2 3\nf 1 2 3\n"), MeshFormat::kObj) << word;
+}
+
+TEST(MeshFormatTest, AnOffMayLeaveItsKeywordOut) {
+    EXPECT_EQ(detect("3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), MeshFormat::kOff);
+    EXPECT_EQ(detect("# counts\n3 1\n\n# places\n0 -1e3 .5 # one\n"), MeshFormat::kOff);
+    EXPECT_EQ(detect("3 1 0\n"), std::nullopt);
+    EXPECT_EQ(detect("3 1 0 2\n0 0 0\n"), std::nullopt);
+    EXPECT_EQ(detect("3.5 1 0\n0 0 0\n"), std::nullopt) << "points";
+    EXPECT_EQ(detect("3 1 0\n0 0\n"), std::nullopt);
+}
+
 TEST(MeshFormatTest, BulkDataBeginWithAnyCommandOrCard) {
     const std::string grid = "\nGRID           1              0.      0.      0.\n";
     for (const char* first : {"PARAM,POST,-1", "GRDSET,,,,,,,6", "CORD2R  1               0.", "ASSIGN OUTPUT2='a.op2'",
@@ -142,6 +166,7 @@ TEST(MeshFormatTest, ANameTellsWhatBytesDoNotTell) {
     };
     EXPECT_EQ(told("EIGRL,1\n", "a.nas"), MeshFormat::kBdf);
     EXPECT_EQ(told("3 1 0\n", "a.off"), MeshFormat::kOff);
+    EXPECT_EQ(told("3 1 0\n0 0 0\n", "a.bdf"), std::nullopt) << "the bytes tell it";
     EXPECT_EQ(told("deform 1\n", "a.OBJ"), MeshFormat::kObj);
     EXPECT_EQ(told("OFF\n3 1 0\n", "a.bdf"), std::nullopt) << "the bytes tell it";
     EXPECT_EQ(told("any text", "a.stl"), std::nullopt) << "an STL has a mark";

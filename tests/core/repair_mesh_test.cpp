@@ -142,6 +142,85 @@ TEST(RepairMeshTest, ACopyThatLooksTheOtherWayTearsNoHole) {
     EXPECT_EQ(repaired(finned, kSafe).mesh, good);
 }
 
+const Finding* find(const std::vector<Finding>& findings, Kind kind) {
+    const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.kind == kind; });
+    return found == findings.end() ? nullptr : &*found;
+}
+
+/// A cube whose face 0 is there twice, the first of region `kept` and the second of `dropped`; the others are of region 0.
+TriangleMesh cube_with_copy(std::uint32_t kept, std::uint32_t dropped, std::vector<FaceSet> sets) {
+    TriangleMesh mesh = test::cube();
+    mesh.regions.assign(mesh.faces.size(), 0);
+    mesh.regions[0] = kept;
+    mesh.faces.push_back(mesh.faces[0]);
+    mesh.regions.push_back(dropped);
+    mesh.sets = std::move(sets);
+    return mesh;
+}
+
+TEST(RepairMeshTest, TheKeptCopyGoesIntoTheSetsOfBoth) {
+    const auto has_face = [](const TriangleMesh& mesh, std::size_t set, std::uint32_t face) {
+        const auto& regions = mesh.sets[set].regions;
+        return std::find(regions.begin(), regions.end(), mesh.regions[face]) != regions.end();
+    };
+    for (const RepairOptions& options : {kSafe, kFull}) {
+        const RepairedMesh both = repaired(cube_with_copy(1, 2, {{"left", {1}}, {"right", {2}}, {"rest", {0}}}), options);
+        EXPECT_EQ(count(both.findings, Kind::kDroppedDuplicate), 1U);
+        EXPECT_TRUE(has_face(both.mesh, 0, 0));
+        EXPECT_TRUE(has_face(both.mesh, 1, 0));
+        EXPECT_FALSE(has_face(both.mesh, 2, 0));
+        EXPECT_TRUE(has_face(both.mesh, 2, 1));
+        EXPECT_EQ(count(both.findings, Kind::kLostFace), 0U);
+        EXPECT_EQ(count(both.findings, Kind::kEmptiedGroup), 0U);
+        // A region that is in the sets of both is there already, and one whose sets the kept one has too adds nothing.
+        const RepairedMesh known = repaired(cube_with_copy(1, 2, {{"left", {1, 3}}, {"right", {3, 2}}}), options);
+        EXPECT_EQ(known.mesh.regions[0], 3U);
+        const RepairedMesh within = repaired(cube_with_copy(1, 2, {{"all", {1, 2}}, {"left", {1}}}), options);
+        EXPECT_EQ(within.mesh.regions[0], 1U);
+    }
+    const RepairedMesh last = repaired(cube_with_copy(0xFFFFFFFF, 2, {{"left", {0xFFFFFFFF}}, {"right", {2}}}), kSafe);
+    EXPECT_EQ(last.mesh.regions[0], 1U) << "the first number that is free";
+}
+
+TEST(RepairMeshTest, WhatARegionLosesToACopyIsTold) {
+    // Of two regions in no set a face can have one.
+    const RepairedMesh lone = repaired(cube_with_copy(1, 2, {}), kSafe);
+    EXPECT_EQ(lone.mesh.regions[0], 1U);
+    ASSERT_EQ(count(lone.findings, Kind::kLostFace), 1U);
+    EXPECT_NE(find(lone.findings, Kind::kLostFace)->message.find("1 of region 2"), std::string::npos);
+    EXPECT_EQ(find(lone.findings, Kind::kLostFace)->elements, std::vector<std::uint32_t>{12});
+    ASSERT_EQ(count(lone.findings, Kind::kEmptiedGroup), 1U);
+    EXPECT_NE(find(lone.findings, Kind::kEmptiedGroup)->message.find("1 of region 2"), std::string::npos);
+    // A set is what a person named: it keeps the face.
+    const RepairedMesh named = repaired(cube_with_copy(0, 2, {{"right", {2}}}), kSafe);
+    EXPECT_EQ(named.mesh.regions[0], 2U);
+    EXPECT_EQ(count(named.findings, Kind::kLostFace), 1U);
+    EXPECT_EQ(count(named.findings, Kind::kEmptiedGroup), 0U);
+    // A wall of no thickness goes with its group.
+    TriangleMesh stacked = test::joined(test::cube(), test::cube(), Vec3(1, 0, 0));
+    ASSERT_TRUE(weld(stacked, 0));
+    const RepairedMesh wall = repaired(stacked, kSafe);
+    stacked.regions.assign(stacked.faces.size(), 1);
+    for (const std::uint32_t face : find(wall.findings, Kind::kDroppedDuplicate)->elements) stacked.regions[face] = 5;
+    stacked.sets = {{"wall", {5}}};
+    const RepairedMesh without = repaired(stacked, kSafe);
+    ASSERT_EQ(count(without.findings, Kind::kLostFace), 4U);
+    EXPECT_NE(find(without.findings, Kind::kEmptiedGroup)->message.find("4 of 'wall'"), std::string::npos);
+}
+
+TEST(RepairMeshTest, AGroupThatGoesWithASpeckIsTold) {
+    TriangleMesh mesh = test::joined(test::cube(), test::cube(), Vec3(3, 0, 0));
+    for (std::size_t v = test::cube().positions.size(); v < mesh.positions.size(); ++v)
+        mesh.positions[v] = Vec3(3, 0, 0) + 1e-4 * (mesh.positions[v] - Vec3(3, 0, 0));
+    mesh.regions.assign(mesh.faces.size(), 1);
+    std::fill(mesh.regions.begin() + 12, mesh.regions.end(), 2);
+    mesh.sets = {{"body", {1}}, {"crumb", {2}}};
+    const RepairedMesh clean = repaired(mesh, kFull);
+    EXPECT_EQ(count(clean.findings, Kind::kDroppedSpeck), 1U);
+    ASSERT_EQ(count(clean.findings, Kind::kEmptiedGroup), 1U);
+    EXPECT_NE(find(clean.findings, Kind::kEmptiedGroup)->message.find("12 of 'crumb'"), std::string::npos);
+}
+
 TEST(RepairMeshTest, AFaceWithoutAreaThatHangsOnABodyGoes) {
     TriangleMesh mesh = test::cube();
     const Triangle t = mesh.faces[0];
@@ -229,6 +308,19 @@ TEST(RepairMeshTest, SmallHolesAreFilledAndRimsAreNot) {
     const RepairedMesh open = repaired(test::hemisphere(40, 10), {.mode = RepairMode::kFull, .hole_size = 100});
     EXPECT_EQ(count(open.findings, Kind::kFilledHole), 0U);
     EXPECT_EQ(open.mesh, test::hemisphere(40, 10));
+}
+
+TEST(RepairMeshTest, AHoleAlongALineIsClosedWithoutAFaceOfNoArea) {
+    TriangleMesh mesh = test::icosphere(2);
+    const Triangle whole = mesh.faces[0];
+    const std::uint32_t middle = mesh.vertex_count();
+    mesh.positions.push_back((mesh.positions[whole[0]] + mesh.positions[whole[1]]) / 2);
+    mesh.faces[0] = {whole[0], middle, whole[2]};
+    mesh.faces.push_back({middle, whole[1], whole[2]});
+    const RepairedMesh closed = repaired(mesh, {.mode = RepairMode::kFull, .stitch = 0, .hole_size = 1});
+    EXPECT_EQ(count(closed.findings, Kind::kFilledHole), 1U);
+    EXPECT_EQ(count(closed.findings, Kind::kDegenerateFace), 0U);
+    EXPECT_TRUE(inspect(closed.mesh).closed);
 }
 
 TEST(RepairMeshTest, AHoleAroundAnEdgeOfOthersIsFilledWithoutMakingItTwice) {
@@ -342,6 +434,8 @@ TEST(RepairMeshTest, StopsWhereverItIsCancelled) {
 TEST(RepairMeshTest, OptionsOutOfRangeAreRefused) {
     const auto field = [](const RepairOptions& options) { return repair_mesh(test::cube(), options).error().field; };
     EXPECT_EQ(field({.weld = -1}), "weld");
+    EXPECT_EQ(field({.mode = RepairMode::kFull, .stitch = -1}), "stitch");
+    EXPECT_EQ(field({.mode = RepairMode::kSafe, .hole_size = 1}), "hole_size") << "SAFE fills none";
     EXPECT_EQ(field({.stitch = std::numeric_limits<double>::quiet_NaN()}), "stitch");
     EXPECT_EQ(field({.hole_size = std::numeric_limits<double>::infinity()}), "hole_size");
     EXPECT_EQ(field({.speck_size = -0.5}), "speck_size");
@@ -361,7 +455,9 @@ TEST(RepairMeshTest, DirtyFilesBecomeManifolds) {
         if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
         const Expected<ReadResult> read = read_mesh_file(path, {});
         ASSERT_TRUE(read);
-        const MeshReport report = inspect(repaired(read->mesh, kFull).mesh);
+        const RepairedMesh mended = repaired(read->mesh, kFull);
+        EXPECT_EQ(count(mended.findings, Kind::kDegenerateFace), 0U) << name;
+        const MeshReport report = inspect(mended.mesh);
         EXPECT_TRUE(require_manifold(report)) << name;
         EXPECT_EQ(report.closed, closes) << name << ": " << report.boundary_edges;
         EXPECT_LT(report.components, 113U) << name;

@@ -122,6 +122,30 @@ TEST(ShapeFeaturesTest, FindsHolesThatAToleranceMadeUneven) {
     }
 }
 
+TEST(ShapeFeaturesTest, DiametersHoldInMeshesThatWereImproved) {
+    for (const std::uint32_t sides : {24U, 48U}) {
+        for (const double tolerance : {0.02, 0.05}) {
+            std::vector<test::Drilling> drillings;
+            for (std::uint32_t i = 0; i < 40; ++i) drillings.push_back({2 + 0.1 * i, 5, sides});
+            ImproveOptions options;
+            options.subdivision_size = 1;
+            options.tolerance = tolerance;
+            const ExecutionContext context;
+            const auto improved = improve(test::drilled_plate(8, 10, 5, drillings), options, {}, context);
+            ASSERT_TRUE(improved) << improved.error().message;
+            std::size_t found = 0;
+            for (const ShapeFeature& f : features_of(mesh_at(improved->mrr, improved->mrr.level_for(improved->faces)))) {
+                const auto column = static_cast<std::uint32_t>(f.centre.x() / 10),
+                           row = static_cast<std::uint32_t>(f.centre.y() / 10);
+                const double diameter = drillings[8 * row + column].diameter;
+                EXPECT_NEAR(f.diameter, diameter, 0.01 * diameter) << sides << " sides, within " << tolerance;
+                ++found;
+            }
+            EXPECT_EQ(found, 40U);
+        }
+    }
+}
+
 TEST(ShapeFeaturesTest, AnOvalIsNoHole) {
     TriangleMesh mesh = test::drilled_plate(1, 10, 3, {{4, 3, 48}});
     for (Vec3& p : mesh.positions) p.x() *= 1.2;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <map>
 #include <sstream>
 #include <string>
@@ -13,6 +14,7 @@
 #include "tests/core/random.h"
 #include "vsplit/io/read_mesh.h"
 #include "vsplit/io/write_mesh.h"
+#include "vsplit/mesh/inspect.h"
 
 namespace vsplit::test {
 namespace {
@@ -169,6 +171,32 @@ TEST(SolverFormatsTest, NamesOfSetsFitSolvers) {
     EXPECT_EQ(write_mesh(mesh, MeshFormat::kMshAscii).find("gone"), std::string::npos);
 }
 
+TEST(SolverFormatsTest, ManySetsAreWrittenInLinearTime) {
+    // Names alike in the 60 characters that decks take, too.
+    const auto with_sets = [](std::uint32_t sets) {
+        TriangleMesh mesh;
+        for (std::uint32_t i = 0; i < sets; ++i) {
+            for (const Vec3& p : {Vec3(i, 0, 0), Vec3(i + 1, 0, 0), Vec3(i, 1, 0)}) mesh.positions.push_back(p);
+            mesh.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+            mesh.regions.push_back(i + 1);
+            mesh.sets.push_back({std::string(70, 'a') + std::to_string(i), {i + 1, (i + 1) % sets + 1}});
+        }
+        return mesh;
+    };
+    const auto seconds = [](const TriangleMesh& mesh, MeshFormat format) {  // of this process: others may keep the machine busy
+        double least = 1e9;
+        for (int run = 0; run < 3; ++run) {
+            const std::clock_t start = std::clock();
+            EXPECT_FALSE(write_mesh(mesh, format).empty());
+            least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+        }
+        return least;
+    };
+    const TriangleMesh few = with_sets(2000), many = with_sets(20000);
+    for (const MeshFormat format : {MeshFormat::kMsh, MeshFormat::kMsh2, MeshFormat::k3mf, MeshFormat::kInp})
+        EXPECT_LT(seconds(many, format), 40 * seconds(few, format)) << format_name(format) << ": of the square it is 100";
+}
+
 TEST(SolverFormatsTest, AConcaveQuadrilateralIsCutWhereItDoesNotFold) {
     const TriangleMesh arrow =
         must_read("*NODE\n1, 0, 0, 0\n2, 2, -1, 0\n3, 0.5, 0, 0\n4, 2, 1, 0\n*ELEMENT, TYPE=S4\n1, 2, 3, 4, 1\n");
@@ -274,6 +302,69 @@ TEST(SolverFormatsTest, SetsOfInputDecks) {
               (Sets{{"a", {0}}, {"s", {0, 1}}}));
     EXPECT_EQ(members(must_read(elements + "*ELSET, ELSET=x\ny\n*ELSET, ELSET=y\nx, 6\n")),
               (Sets{{"a", {0}}, {"x", {1}}, {"y", {1}}}));
+}
+
+TEST(SolverFormatsTest, SetsOfInputDecksHoldWhatIsDefined) {
+    const std::string deck =
+        std::string(kInpNodes) +
+        "*ELEMENT, TYPE=S3, ELSET=a\n5, 1, 2, 3\n*ELEMENT, TYPE=B31\n7, 1, 2\n*ELEMENT, TYPE=C3D4\n9, 1, 2, 3, 7\n";
+    for (const char* fault : {"*ELSET, ELSET=b\n5, 6\n", "*SURFACE, NAME=b, TYPE=ELEMENT\n6, S1\n"}) {
+        const Expected<ReadResult> result = read(deck + fault);
+        ASSERT_FALSE(result) << fault;
+        EXPECT_EQ(result.error().cause, Cause::kIndexOutOfRange);
+        EXPECT_EQ(result.error().message, "line 13: set 'b' names element 6, which the file does not define");
+    }
+    const Expected<ReadResult> range = read(deck + "*ELSET, ELSET=b, GENERATE\n10, 90\n");
+    ASSERT_FALSE(range);
+    EXPECT_EQ(range.error().message, "line 13: set 'b' names elements 10 to 90, of which the file defines none");
+    // Elements without a face are there, and a set of them alone is told of.
+    const Expected<ReadResult> set =
+        read(deck + "*ELSET, ELSET=b\n5, 7, 9\n*ELSET, ELSET=c\n7, 9\n*ELSET, ELSET=d, GENERATE\n1, 99\n");
+    ASSERT_TRUE(set) << set.error().message;
+    EXPECT_EQ(set->mesh.sets.size(), 3U);
+    EXPECT_EQ(set->weld.unused_sets, std::vector<std::string>{"c"});
+    const MeshReport report = inspect(set->mesh, set->weld);
+    EXPECT_NE(std::find_if(report.findings.begin(), report.findings.end(),
+                           [](const Finding& f) {
+                               return f.kind == Finding::Kind::kUnusedSet && f.message.find("'c'") != std::string::npos;
+                           }),
+              report.findings.end());
+}
+
+TEST(SolverFormatsTest, NamesThatNoFaceHasAreTold) {
+    const Expected<ReadResult> bulk = read(
+        std::string("$HMNAME COMP 3\"flange\"\n$HMNAME COMP 4\"gone\"\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n"
+                    "CTRIA3,2,3,1,2,3\n"));
+    ASSERT_TRUE(bulk);
+    EXPECT_EQ(bulk->weld.unused_sets, std::vector<std::string>{"gone"});
+    EXPECT_EQ(bulk->mesh.sets.size(), 1U);
+    const Expected<ReadResult> gmsh =
+        read(std::string("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"skin\"\n2 9 "
+                         "\"gone\"\n$EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n"
+                         "2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n"));
+    ASSERT_TRUE(gmsh) << gmsh.error().message;
+    EXPECT_EQ(gmsh->weld.unused_sets, std::vector<std::string>{"gone"});
+}
+
+TEST(SolverFormatsTest, ElementsOfGmshLieOnSurfacesThatThereAre) {
+    std::string text = write_mesh(cube(), MeshFormat::kMshAscii);
+    const std::size_t block = text.find("\n2 1 2 12 ");
+    ASSERT_NE(block, std::string::npos);
+    text.replace(block, 5, "\n2 9 ");
+    const Expected<ReadResult> result = read(text);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().cause, Cause::kIndexOutOfRange);
+    EXPECT_NE(result.error().message.find(": elements are on surface 9, which $Entities does not define"), std::string::npos)
+        << result.error().message;
+}
+
+TEST(SolverFormatsTest, NumbersOfInputDecksMayBeFortrans) {
+    const TriangleMesh mesh =
+        must_read("*NODE\n1, 0.D0, 0.d0, 0\n2, 1.D+00, 0, -2.5d-1\n3, 0, 1.5-1, 1E3\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n");
+    EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, -0.25}, {0, 0.15, 1000}}));
+    const Expected<ReadResult> word = read(std::string("*NODE\n1, 0.D0x, 0, 0\n*ELEMENT, TYPE=S3\n1, 1, 1, 1\n"));
+    ASSERT_FALSE(word);
+    EXPECT_EQ(word.error().message, "line 2: expected a coordinate, found '0.D0x'");
 }
 
 TEST(SolverFormatsTest, BulkDataInSmallLargeAndFreeFields) {
@@ -537,6 +628,8 @@ TEST(SolverFormatsTest, BrokenFilesAreErrorsThatSayWhere) {
         {nodes + "*NCOPY, CHANGE NUMBER=5\n", Cause::kUnsupported, "line 6: *NCOPY makes or moves"},
         {nodes + "*NGEN\n1, 2\n", Cause::kUnsupported, "line 6: *NGEN makes or moves"},
         {nodes + "*ELSET, ELSET=a,\nb, c\n", Cause::kUnsupported, "line 6: *ELSET: the parameter 'B' is not read"},
+        {nodes + "*ELEMENT, TYPE=S3, OFFSET=100\n1, 1, 2, 3\n", Cause::kUnsupported,
+         "line 6: *ELEMENT: the parameter 'OFFSET' is not read; accepted are TYPE, ELSET, SOLIDELEMENTNUMBERING"},
         {"*NODE, SYSTEM=C\n1, 1, 0, 0\n", Cause::kUnsupported, "line 1: *NODE, SYSTEM=C is not read"},
         {"*NODE, INPUT=nodes.txt\n", Cause::kUnsupported, "line 1: *NODE: the parameter 'INPUT' is not read"},
         {nodes + "*SURFACE, NAME=s, COMBINE=DIFFERENCE\na, b\n", Cause::kUnsupported, "line 6: *SURFACE, COMBINE=DIFFERENCE"},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -25,6 +26,14 @@ TriangleMesh mesh_of(std::span<const std::uint8_t> bytes) {
     return mesh;
 }
 
+bool is_in(const FaceSet& set, std::uint32_t region) {
+    return std::find(set.regions.begin(), set.regions.end(), region) != set.regions.end();
+}
+
+bool is_in_any(const std::vector<FaceSet>& sets, std::uint32_t region) {
+    return std::any_of(sets.begin(), sets.end(), [&](const FaceSet& set) { return is_in(set, region); });
+}
+
 void check_repaired(const TriangleMesh& before, const RepairedMesh& repaired) {
     const TriangleMesh& mesh = repaired.mesh;
     fuzz::check(repaired.parent.size() == mesh.faces.size(), "every face has a parent");
@@ -33,7 +42,10 @@ void check_repaired(const TriangleMesh& before, const RepairedMesh& repaired) {
     fuzz::check(mesh.regions.size() == mesh.faces.size(), "every face keeps a region");
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         for (const std::uint32_t v : mesh.faces[f]) fuzz::check(v < mesh.vertex_count(), "indices are in range");
-        fuzz::check(mesh.regions[f] == before.regions[repaired.parent[f]], "a face has its parent's region");
+        const std::uint32_t was = before.regions[repaired.parent[f]], is = mesh.regions[f];
+        fuzz::check(was == is || is_in_any(mesh.sets, is), "another region than its parent's is one of sets");
+        for (std::size_t s = 0; s < before.sets.size(); ++s)
+            fuzz::check(!is_in(before.sets[s], was) || is_in(mesh.sets[s], is), "a face is in its parent's sets");
     }
     if (!mesh.faces.empty()) fuzz::check(bool(require_manifold(inspect(mesh))), "a repaired mesh is a manifold");
 }

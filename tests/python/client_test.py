@@ -190,6 +190,8 @@ class ClientTest(unittest.TestCase):
         self.assertEqual(source.faces, 4)
         self.assertIn(("DROPPED_DUPLICATE", 1), [(finding.kind, finding.count) for finding in source.findings])
         self.assertFalse(self.client.session(self.client.upload(GAPING, session=session, weld=1e-4)).source.closed)
+        with self.assertRaisesRegex(grpc.RpcError, "stitch is given; it is accepted with the repair FULL alone"):
+            self.client.upload(DIRTY, repair="safe", stitch=0.1)
         self.assertTrue(self.client.session(self.client.upload(GAPING, session=session, weld=0.01)).source.closed)
         self.client.delete(session)
 

@@ -85,8 +85,43 @@ TEST(CreateSessionTest, RepairsWhatItIsAskedTo) {
         EXPECT_EQ(session.source().findings(0).kind(), full ? "FILLED_HOLE" : "BOUNDARY_EDGE");
         EXPECT_GE(session.source().findings(0).places_size(), 1);
     }
+    request.set_hole_size(1e-3);  // of the hole 0.5
+    ASSERT_TRUE(server.stub().CreateSession(call().get(), request, &session).ok());
+    EXPECT_FALSE(session.source().closed());
+    request.set_hole_size(-1);
+    EXPECT_TRUE(failed_with(server.stub().CreateSession(call().get(), request, &session), Cause::kInvalidOption, "hole_size"));
+    request.clear_hole_size();
+    for (const v1::Repair repair : {v1::REPAIR_UNSPECIFIED, v1::SAFE}) {
+        request.set_repair(repair);
+        request.set_stitch(0.1);
+        EXPECT_TRUE(failed_with(server.stub().CreateSession(call().get(), request, &session), Cause::kInvalidOption, "stitch"));
+    }
+    request.clear_stitch();
     request.set_repair(static_cast<v1::Repair>(9));
     EXPECT_TRUE(failed_with(server.stub().CreateSession(call().get(), request, &session), Cause::kInvalidOption, "repair"));
+}
+
+TEST(CreateSessionTest, BytesThatAreNoTextDoNotHarm) {
+    TestServer server;
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    const Reply<v1::Session> group = create_session(server.stub(), vertices + "g \xff\x80wall\nf 1 2 3\n");
+    ASSERT_TRUE(group.status.ok()) << group.status.error_message();
+    ASSERT_EQ(group.message.source().groups_size(), 1);
+    EXPECT_EQ(group.message.source().groups(0).name(), "??wall");
+    // A set that no face is in, told of in a finding.
+    const Reply<v1::Session> unused = create_session(
+        server.stub(), "$HMNAME COMP 7\"\xff\"\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nCTRIA3,2,3,1,2,3\n");
+    ASSERT_TRUE(unused.status.ok()) << unused.status.error_message();
+    EXPECT_NE(unused.message.source().findings(1).message().find("\\xff"), std::string::npos);
+    for (const std::string& text : {vertices + "v 0 0 \xff\xfe\n", vertices + "\xc3\x28 1\n", vertices + "f 1 2 \xff\n",
+                                    std::string("*NODE, SYSTEM=\xff\n"), std::string("GRID,1,,0.,0.,0.\nCTRI\xff,1,1,1,2,3\n"),
+                                    std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"\xff\">\n</VTKFile>\n")}) {
+        const Reply<v1::Session> broken = create_session(server.stub(), text);
+        EXPECT_FALSE(broken.status.ok()) << text;
+        EXPECT_NE(broken.status.error_code(), grpc::StatusCode::INTERNAL) << text;
+        EXPECT_NE(broken.status.error_code(), grpc::StatusCode::UNKNOWN) << text;
+        EXPECT_FALSE(broken.status.error_message().empty());
+    }
 }
 
 TEST(CreateSessionTest, NamesTheLimitOfSessions) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <thread>
 #include <vector>
@@ -114,11 +115,15 @@ TEST_F(UploadRpcTest, RefusesSettingsThatChange) {
     make_representation();
     const v1::UploadMeshRequest first = first_part(file_.substr(0, 100));
     std::vector<std::pair<std::string, v1::UploadMeshRequest>> changes;
-    for (const char* field : {"session", "format", "weld", "size"}) changes.emplace_back(field, part(100, file_.substr(100)));
+    for (const char* field : {"session", "format", "weld", "size", "stitch", "hole_size", "speck_size"})
+        changes.emplace_back(field, part(100, file_.substr(100)));
     changes[0].second.set_session("another");
     changes[1].second.set_format(v1::STL);
     changes[2].second.set_weld(0.5);
     changes[3].second.set_size(file_.size());
+    changes[4].second.set_stitch(0);
+    changes[5].second.set_hole_size(1);
+    changes[6].second.set_speck_size(1);
     for (const auto& [field, changed] : changes) {
         EXPECT_TRUE(failed_with(upload_parts(server_.stub(), {first, changed}).status, Cause::kInvalidOption, field));
     }
@@ -208,6 +213,10 @@ TEST_F(UploadRpcTest, RepairsWhatItIsAskedTo) {
     const auto uploaded = upload_parts(server_.stub(), {first});
     ASSERT_TRUE(uploaded.status.ok()) << uploaded.status.error_message();
     EXPECT_TRUE(uploaded.message.source().closed());
+    first.set_hole_size(1e-3);
+    EXPECT_FALSE(upload_parts(server_.stub(), {first}).message.source().closed());
+    first.set_hole_size(std::nan(""));
+    EXPECT_TRUE(failed_with(upload_parts(server_.stub(), {first}).status, Cause::kInvalidOption, "hole_size"));
     first.set_repair(static_cast<v1::Repair>(9));
     EXPECT_TRUE(failed_with(upload_parts(server_.stub(), {first}).status, Cause::kInvalidOption, "repair"));
 }

@@ -55,7 +55,7 @@ TEST_F(UploadTest, PutsTheMeshIntoTheSession) {
 
 TEST_F(UploadTest, AClientThatLeavesEndsTheRepair) {
     UploadSettings settings;
-    settings.mesh.repair = RepairMode::kFull;
+    settings.mesh.repair = RepairOptions{.mode = RepairMode::kFull};
     const auto commit_asked = [&](int times) {
         Expected<Upload> upload = Upload::begin(session_, settings, options_, memory_, disk_);
         EXPECT_TRUE(upload && upload->append(0, bytes_of(file_)));
@@ -74,7 +74,7 @@ TEST_F(UploadTest, AClientThatLeavesEndsTheRepair) {
 TEST_F(UploadTest, RepairIsWorkWhoseTimeEnds) {
     options_.limits.job_seconds = 0;
     UploadSettings settings;
-    settings.mesh.repair = RepairMode::kFull;
+    settings.mesh.repair = RepairOptions{.mode = RepairMode::kFull};
     Expected<Upload> upload = Upload::begin(session_, settings, options_, memory_, disk_);
     ASSERT_TRUE(upload && upload->append(0, bytes_of(file_)));
     const Expected<SessionSnapshot> session = upload->commit(always);

@@ -45,6 +45,9 @@ v1::UploadMeshRequest first_message(const std::string& session, const UploadOpti
     message.set_format(wire::to_proto(options.format));
     message.set_weld(options.weld);
     message.set_repair(options.repair);
+    if (options.stitch) message.set_stitch(*options.stitch);
+    if (options.hole_size) message.set_hole_size(*options.hole_size);
+    if (options.speck_size) message.set_speck_size(*options.speck_size);
     message.set_unit(wire::to_proto(options.unit));
     if (size) message.set_size(*size);
     return message;
@@ -67,6 +70,9 @@ Status send_parts(grpc::ClientWriter<v1::UploadMeshRequest>& writer, v1::UploadM
         message.clear_format();
         message.clear_weld();
         message.clear_repair();
+        message.clear_stitch();
+        message.clear_hole_size();
+        message.clear_speck_size();
         message.clear_unit();
         message.clear_size();
     }

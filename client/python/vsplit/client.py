@@ -49,17 +49,22 @@ class Client:
     def close(self):
         self._channel.close()
 
-    def upload(self, mesh, on_progress=None, *, session=None, format=None, weld=0.0, repair=None, unit=None):
+    def upload(self, mesh, on_progress=None, *, session=None, format=None, weld=0.0, repair=None, unit=None,
+               stitch=None, hole_size=None, speck_size=None):
         """A session with a mesh: a path, or the bytes of a file. Returns the session's id.
 
         `session`: whose mesh it takes the place of; by default a new one, which is deleted where the mesh is refused. `format`: by
         default told from the bytes. `weld`: vertices within this distance are merged, by default equal ones. `repair`: "none" (the
         findings say what stands in the way), "safe" or "full" (docs/repair.md). `unit`: of the lengths, where the file does not say
-        it. What was found, and what a repair changed: client.session(id).source.findings. `on_progress(sent, size)`: in bytes.
+        it. With repair "full": `stitch`, borders this close are joined; `hole_size`, holes with a box of at most this diagonal are
+        filled; `speck_size`, pieces with a box of a smaller diagonal are dropped; lengths, by default 0.2, 5 and 0.1 % of the
+        diagonal of the mesh's box. What was found, and what a repair changed: client.session(id).source.findings. `on_progress(sent, size)`: in bytes.
         """
         data = mesh if isinstance(mesh, (bytes, bytearray, memoryview)) else pathlib.Path(mesh).read_bytes()
         first = message_of(
-            v1.UploadMeshRequest, {"format": format, "weld": weld, "repair": repair, "unit": unit, "size": memoryview(data).nbytes})
+            v1.UploadMeshRequest,
+            {"format": format, "weld": weld, "repair": repair, "unit": unit, "stitch": stitch, "hole_size": hole_size,
+             "speck_size": speck_size, "size": memoryview(data).nbytes})
         first.session = session or self._stub.CreateSession(v1.CreateSessionRequest()).id
         try:
             self._send(first, bytes(data), on_progress)

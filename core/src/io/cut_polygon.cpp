@@ -15,10 +15,15 @@ using Corner = std::uint32_t;
 
 constexpr std::uint64_t kTestsACorner = 2000;
 constexpr double kFlat = 1e-15;  // of the square of the polygon's extent: an area that rounding makes
+constexpr double kThin = 1e-9;   // of the square of a triangle's longest side: it would be a degenerate face
 
 /// Twice the area of a, b, c: negative where they run clockwise.
 double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+double longest_squared(const Vec2& a, const Vec2& b, const Vec2& c) {
+    return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
 }
 
 /// The polygon seen along the axis that its normal is closest to, counter-clockwise, the first corner at the origin.
@@ -58,7 +63,7 @@ public:
             prev_[i] = (i + n - 1) % n;
         }
         for (Corner i = 0; i < n; ++i) {
-            if (area(i) <= least_) blunt_.push_back(i);
+            if (area(i) <= thin(i)) blunt_.push_back(i);
         }
         std::sort(blunt_.begin(), blunt_.end(), [&](Corner l, Corner r) { return points_[l].x() < points_[r].x(); });
     }
@@ -100,16 +105,21 @@ private:
         gone_[i] = true;
     }
 
+    /// Up to this an area of the corner's triangle makes no face.
+    [[nodiscard]] double thin(Corner i) const {
+        return std::max(least_, kThin * longest_squared(points_[prev_[i]], points_[i], points_[next_[i]]));
+    }
+
     /// `strict`: with an area, and no corner on its sides.
     [[nodiscard]] bool is_ear(Corner i, bool strict) {
         ++tests_;
         const double own = area(i);
-        if (strict ? own <= least_ : own < -least_) return false;
+        if (strict ? own <= thin(i) : own < -least_) return false;
         const Vec2& a = points_[prev_[i]];
         const Vec2& b = points_[i];
         const Vec2& c = points_[next_[i]];
         const double most = std::max({a.x(), b.x(), c.x()});
-        const double inside = strict ? -least_ : least_;
+        const double inside = strict ? -thin(i) : least_;
         // Where any corner is inside, a blunt one is.
         auto other = std::lower_bound(blunt_.begin(), blunt_.end(), std::min({a.x(), b.x(), c.x()}),
                                       [&](Corner corner, double x) { return points_[corner].x() < x; });
@@ -140,9 +150,16 @@ std::vector<Triangle> cut_polygon(std::span<const Vec3> corners) {
     if (fan.size() == 1) return fan;
     const std::vector<Vec2> points = flattened(corners);
     const double least = least_area(points);
-    const bool folds = std::any_of(fan.begin(), fan.end(),
-                                   [&](const Triangle& t) { return turn(points[t[0]], points[t[1]], points[t[2]]) < -least; });
-    return folds ? EarCutter(points, least).run() : fan;
+    bool folds = false;
+    bool has_flat = false;
+    for (const auto& [i, j, k] : fan) {
+        const double area = turn(points[i], points[j], points[k]);
+        folds = folds || area < -least;
+        has_flat = has_flat || area <= std::max(least, kThin * longest_squared(points[i], points[j], points[k]));
+    }
+    if (!folds && !has_flat) return fan;
+    std::vector<Triangle> triangles = EarCutter(points, least).run();
+    return triangles.empty() && !folds ? fan : triangles;
 }
 
 Status unfold_fan(const std::vector<Vec3>& positions, std::span<Triangle> fan, Place place) {

@@ -5,6 +5,7 @@
 
 #include "base/byte_order.h"
 #include "io/bdf_cards.h"
+#include "io/obj_keyword.h"
 #include "io/off_header.h"
 #include "io/stl_layout.h"
 #include "io/text_lines.h"
@@ -88,12 +89,6 @@ MeshFormat kind_of_ply(std::string_view text) {
     return MeshFormat::kPlyAscii;  // the reader will say what is missing
 }
 
-bool is_obj_keyword(std::string_view word) {
-    constexpr std::array<std::string_view, 15> kKeywords = {"v", "vn", "vt", "vp", "f",      "fo",     "o",  "g",
-                                                            "s", "l",  "p",  "mg", "mtllib", "usemtl", "lod"};
-    return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end();
-}
-
 /// By the line of the format: its version, and whether bytes follow.
 MeshFormat kind_of_msh(std::string_view text) {
     std::string_view rest = text.substr(std::min(text.find("$MeshFormat"), text.size()));
@@ -155,21 +150,39 @@ std::optional<MeshFormat> detect_by_mark(std::string_view text) {
     return xml && text.find("<VTKFile") != std::string_view::npos ? std::optional(MeshFormat::kVtu) : std::nullopt;
 }
 
+/// An OFF may leave its keyword out: it begins with two or three counts, and a line of three coordinates follows.
+bool is_off_without_keyword(std::string_view text) {
+    TextLines lines(text.substr(0, kMostComments));
+    if (!lines.next_content('#')) return false;
+    std::size_t counts = 0;
+    for (std::string_view line = lines.line(), word = next_word(line); !word.empty(); word = next_word(line), ++counts) {
+        if (word.find_first_not_of("0123456789") != std::string_view::npos) return false;
+    }
+    if (counts < 2 || counts > 3 || !lines.next_content('#')) return false;
+    std::string_view line = lines.line();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!parse_number(next_word(line))) return false;
+    }
+    return true;
+}
+
 /// By the first word that is no comment.
 std::optional<MeshFormat> detect_by_word(std::string_view text, bool has_bytes) {
     const std::string_view content = without_comments(text);
     if (content.empty()) {  // comments as far as one looks
         const std::string_view comment = trimmed(text.substr(0, kWindow));
         if (comment.starts_with('#')) return MeshFormat::kObj;
-        return comment.starts_with("**") ? std::optional(MeshFormat::kInp) : std::nullopt;
+        if (comment.starts_with("**")) return MeshFormat::kInp;
+        return comment.starts_with('$') ? std::optional(MeshFormat::kBdf) : std::nullopt;
     }
     std::string_view line = content.substr(0, std::min(content.find_first_of("#\r\n"), content.size()));
     const std::string_view word = next_word(line);
     if (is_off_keyword(word)) return MeshFormat::kOff;
     if (has_bytes) return {};  // the header of a binary STL may begin with any word
     if (equals_ignoring_case(word, "solid")) return MeshFormat::kStlAscii;
-    if (is_obj_keyword(word)) return MeshFormat::kObj;
+    if (obj_line(word)) return MeshFormat::kObj;
     if (word.starts_with('*') && word.size() > 1) return MeshFormat::kInp;
+    if (is_off_without_keyword(content)) return MeshFormat::kOff;
     return is_bulk_data(content) ? std::optional(MeshFormat::kBdf) : std::nullopt;
 }
 

@@ -40,14 +40,29 @@ ElementBuilder::Set& ElementBuilder::set(const std::string& name) {
     return is_new ? sets_.emplace_back(Set{name, {}, {}}) : sets_[found->second];
 }
 
-void ElementBuilder::add_to_set(const std::string& name, std::int64_t first, std::int64_t last, std::int64_t step, Place place) {
+/// One by one, as most files name them, elements that follow each other are one range; a range that may be wrong is of one place.
+void ElementBuilder::add_one(const std::string& name, std::int64_t id, Place place, Must must) {
     std::vector<Range>& ranges = set(name).ranges;
-    // One by one, as most files name them, elements that follow each other are one range.
-    if (first == last && !ranges.empty() && ranges.back().step == 1 && ranges.back().last + 1 == first) {
-        ranges.back().last = last;
+    const bool goes_on = !ranges.empty() && ranges.back().must == must && ranges.back().last + 1 == id &&
+                         (must == Must::kNothing || ranges.back().place == place.number);
+    if (goes_on) {
+        ranges.back().last = id;
     } else {
-        ranges.push_back({first, last, step, place.number});
+        ranges.push_back({id, id, 1, place.number, must});
     }
+}
+
+void ElementBuilder::define_in_set(const std::string& name, std::int64_t id, Place place) {
+    add_one(name, id, place, Must::kNothing);
+}
+
+void ElementBuilder::add_to_set(const std::string& name, std::int64_t id, Place place) {
+    add_one(name, id, place, Must::kAllExist);
+}
+
+void ElementBuilder::add_range_to_set(const std::string& name, std::int64_t first, std::int64_t last, std::int64_t step,
+                                      Place place) {
+    set(name).ranges.push_back({first, last, step, place.number, Must::kOneExists});
 }
 
 void ElementBuilder::add_set_to_set(const std::string& name, const std::string& other, Place place) {
@@ -160,6 +175,47 @@ Status ElementBuilder::sort_elements() {
                         std::to_string(corners_[twice->index].place));
 }
 
+bool ElementBuilder::is_defined(std::int64_t id) const {
+    const auto face =
+        std::lower_bound(elements_.begin(), elements_.end(), id, [](const Node& n, std::int64_t i) { return n.id < i; });
+    return (face != elements_.end() && face->id == id) || std::binary_search(skipped_.begin(), skipped_.end(), id);
+}
+
+Status ElementBuilder::check_members() {
+    std::sort(skipped_.begin(), skipped_.end());
+    const auto error = [&](const Set& s, const Range& range, const std::string& what) {
+        return error_at(Cause::kIndexOutOfRange, range.place, "set " + quoted(s.name) + " names " + what);
+    };
+    const auto on_step = [](const Range& range, std::int64_t id) {
+        return id <= range.last && (id - range.first) % range.step == 0;
+    };
+    const auto one_exists = [&](const Range& range) {
+        auto face = std::lower_bound(elements_.begin(), elements_.end(), range.first,
+                                     [](const Node& n, std::int64_t id) { return n.id < id; });
+        for (; face != elements_.end() && face->id <= range.last; ++face) {
+            if (on_step(range, face->id)) return true;
+        }
+        auto other = std::lower_bound(skipped_.begin(), skipped_.end(), range.first);
+        for (; other != skipped_.end() && *other <= range.last; ++other) {
+            if (on_step(range, *other)) return true;
+        }
+        return false;
+    };
+    for (const Set& s : sets_) {
+        for (const Range& range : s.ranges) {
+            if (range.must == Must::kOneExists && !one_exists(range)) {
+                return error(s, range,
+                             "elements " + std::to_string(range.first) + " to " + std::to_string(range.last) +
+                                 ", of which the file defines none");
+            }
+            for (std::int64_t id = range.first; range.must == Must::kAllExist && id <= range.last; ++id) {
+                if (!is_defined(id)) return error(s, range, "element " + std::to_string(id) + ", which the file does not define");
+            }
+        }
+    }
+    return Done{};
+}
+
 Status ElementBuilder::put_into_set(const Range& range, std::uint32_t number) {
     auto at = std::lower_bound(elements_.begin(), elements_.end(), range.first,
                                [](const Node& n, std::int64_t id) { return n.id < id; });
@@ -175,6 +231,7 @@ Status ElementBuilder::put_into_set(const Range& range, std::uint32_t number) {
 
 Status ElementBuilder::fill_sets() {
     if (Status found = find_others(); !found) return found;
+    if (Status defined = check_members(); !defined) return defined;
     sets_of_.resize(corners_.size());
     collected_for_.assign(sets_.size(), kNobody);
     std::vector<std::uint32_t> members;
@@ -198,26 +255,29 @@ void ElementBuilder::leave_set_of_all() {
     };
     if (!std::all_of(sets_of_.begin(), sets_of_.end(), is_in)) return;
     for (std::vector<std::uint32_t>& sets : sets_of_) sets.erase(std::lower_bound(sets.begin(), sets.end(), number));
+    sets_[number].name.clear();
 }
 
 void ElementBuilder::make_regions() {
     std::map<std::vector<std::uint32_t>, std::uint32_t> regions{{{}, 0}};
     mesh_.sets.clear();
-    for (const Set& s : sets_) mesh_.sets.push_back({s.name, {}});
+    for (const Set& s : sets_) mesh_.sets.push_back({s.name, {}});  // without a name: the one of all
     for (std::uint32_t f = 0; f < corners_.size(); ++f) {
         const auto [region, is_new] = regions.try_emplace(sets_of_[f], static_cast<std::uint32_t>(regions.size()));
         mesh_.regions[f] = region->second;
         if (!is_new) continue;
         for (const std::uint32_t number : sets_of_[f]) mesh_.sets[number].regions.push_back(region->second);
     }
+    std::erase_if(mesh_.sets, [](const FaceSet& s) { return s.name.empty(); });
 }
 
-/// Regions that no face has, and sets of none; and where no face has a region at all, the regions.
+/// Regions that no face has; and where no face has a region at all, the regions. Sets without a face stay: who reads tells of
+/// them.
 void ElementBuilder::drop_empty_regions() {
     const std::set<std::uint32_t> used(mesh_.regions.begin(), mesh_.regions.end());
     for (FaceSet& s : mesh_.sets) std::erase_if(s.regions, [&](std::uint32_t region) { return used.count(region) == 0; });
-    std::erase_if(mesh_.sets, [](const FaceSet& s) { return s.regions.empty(); });
-    if (mesh_.sets.empty() && used.size() <= 1 && used.count(0) == used.size()) mesh_.regions.clear();
+    const bool no_set = std::all_of(mesh_.sets.begin(), mesh_.sets.end(), [](const FaceSet& s) { return s.regions.empty(); });
+    if (no_set && used.size() <= 1 && used.count(0) == used.size()) mesh_.regions.clear();
 }
 
 Expected<TriangleMesh> ElementBuilder::take() {

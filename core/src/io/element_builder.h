@@ -34,9 +34,17 @@ public:
 
     /// An element with a volume: it has no place in a surface mesh. Files with nothing else are refused.
     void skip_solid() { ++solids_; }
+    /// An element without a face: sets may hold it all the same.
+    void skip_element(std::int64_t id) { skipped_.push_back(id); }
 
-    /// Elements `first` to `last` are in the set.
-    void add_to_set(const std::string& name, std::int64_t first, std::int64_t last, std::int64_t step, Place place);
+    /// There is a set of this name, of no elements so far.
+    void add_set(const std::string& name) { static_cast<void>(set(name)); }
+    /// An element is in the set where it is defined.
+    void define_in_set(const std::string& name, std::int64_t id, Place place);
+    /// An element that must be defined somewhere is in the set.
+    void add_to_set(const std::string& name, std::int64_t id, Place place);
+    /// Elements `first` to `last` are in the set; one at least must be defined.
+    void add_range_to_set(const std::string& name, std::int64_t first, std::int64_t last, std::int64_t step, Place place);
     /// The elements of another set are in the set, those it gets later too.
     void add_set_to_set(const std::string& name, const std::string& other, Place place);
 
@@ -48,8 +56,8 @@ public:
 
     /// The mesh. Where sets have members, faces that are in the same sets are a region, numbered from 1 in order of their first
     /// face, and 0 are those in none; else regions are those given with the elements, none when all are 0.
-    /// \return INDEX_OUT_OF_RANGE for a node that does not exist; MALFORMED_INPUT for an element that is defined twice, a node
-    /// that is so in different places, or an unknown set; UNSUPPORTED for a file of solids; LIMIT_EXCEEDED.
+    /// \return INDEX_OUT_OF_RANGE for a node, or an element of a set, that does not exist; MALFORMED_INPUT for an element that is
+    /// defined twice, a node that is so in different places, or an unknown set; UNSUPPORTED for a file of solids; LIMIT_EXCEEDED.
     [[nodiscard]] Expected<TriangleMesh> take();
 
 private:
@@ -62,11 +70,13 @@ private:
         std::int64_t element = 0;
         std::size_t place = 0;
     };
+    enum class Must { kNothing, kAllExist, kOneExists };  ///< what is asked of the elements of a range
     struct Range {
         std::int64_t first = 0;
         std::int64_t last = 0;
         std::int64_t step = 1;
         std::size_t place = 0;
+        Must must = Must::kNothing;
     };
     struct Other {
         std::string name;
@@ -93,6 +103,9 @@ private:
     [[nodiscard]] Status find_others();
     [[nodiscard]] Status collect_members(std::uint32_t set, std::vector<std::uint32_t>& members);
     [[nodiscard]] Status sort_elements();
+    void add_one(const std::string& name, std::int64_t id, Place place, Must must);
+    [[nodiscard]] bool is_defined(std::int64_t id) const;
+    [[nodiscard]] Status check_members();
     [[nodiscard]] Status put_into_set(const Range& range, std::uint32_t number);
     [[nodiscard]] Status fill_sets();
     void leave_set_of_all();
@@ -108,7 +121,8 @@ private:
     std::vector<Node> nodes_;
     std::vector<std::size_t> node_places_;
     std::vector<Corner> corners_;
-    std::vector<Node> elements_;  // id and first face, ascending by id
+    std::vector<Node> elements_;         // id and first face, ascending by id
+    std::vector<std::int64_t> skipped_;  // elements without a face
     std::vector<Set> sets_;
     std::map<std::string, std::size_t> set_numbers_;   // by name in upper case
     std::vector<std::vector<std::uint32_t>> sets_of_;  // of each face, ascending

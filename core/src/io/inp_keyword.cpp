@@ -11,6 +11,12 @@ using Names = std::span<const std::string_view>;
 
 bool is_one_of(std::string_view name, Names names) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
+std::string list_of(Names names) {
+    std::string list;
+    for (const std::string_view name : names) list.append(list.empty() ? "" : ", ").append(name);
+    return list;
+}
+
 /// In upper case and without blanks: both solvers read "*End Part" and "*ENDPART".
 std::string plain(std::string_view text) {
     std::string name = upper_case(text);
@@ -128,7 +134,7 @@ Status check_inp_keyword(const InpKeyword& keyword, Place place) {
     const Names known = known_parameters(name);
     for (const auto& [key, value] : keyword.parameters) {
         if (!known.empty() && !is_one_of(key, known))
-            return unsupported(name + ": the parameter " + quoted(key) + " is not read");
+            return unsupported(name + ": the parameter " + quoted(key) + " is not read; accepted are " + list_of(known));
     }
     return Done{};
 }

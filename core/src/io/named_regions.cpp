@@ -14,7 +14,10 @@ namespace {
 /// CalculiX and Abaqus take 80 characters; the rest is for a number here and what a deck hangs on.
 constexpr std::size_t kLongestName = 60;
 
-std::string solver_name(const std::string& name, std::set<std::string>& taken) {
+/// Names in upper case, and the number that the last one of each name got: tried again from 2 on, many alike would take forever.
+using Taken = std::map<std::string, int>;
+
+std::string solver_name(const std::string& name, Taken& taken) {
     std::string good = name;
     for (char& c : good) {
         const bool keeps = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
@@ -22,8 +25,12 @@ std::string solver_name(const std::string& name, std::set<std::string>& taken) {
     }
     good.resize(std::min(good.size(), kLongestName));
     if (good.empty() || std::isalpha(static_cast<unsigned char>(good.front())) == 0) good.insert(0, "S_");
-    std::string different = good;
-    for (int number = 2; !taken.insert(upper_case(different)).second; ++number) different = good + "_" + std::to_string(number);
+    const auto [known, is_new] = taken.try_emplace(upper_case(good), 1);
+    if (is_new) return good;
+    std::string different;
+    do {
+        different = good + "_" + std::to_string(++known->second);
+    } while (!taken.try_emplace(upper_case(different), 1).second);
     return different;
 }
 
@@ -48,6 +55,22 @@ std::vector<NamedRegion> named_regions(const TriangleMesh& mesh) {
         result.push_back(std::move(region));
     }
     return result;
+}
+
+FacesOfRegions faces_of_regions(const TriangleMesh& mesh) {
+    FacesOfRegions faces;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) faces[mesh.regions[f]].push_back(f);
+    return faces;
+}
+
+std::vector<std::uint32_t> faces_of_set(const FaceSet& set, const FacesOfRegions& of_regions) {
+    std::vector<std::uint32_t> faces;
+    for (const std::uint32_t region : std::set(set.regions.begin(), set.regions.end())) {
+        const auto found = of_regions.find(region);
+        if (found != of_regions.end()) faces.insert(faces.end(), found->second.begin(), found->second.end());
+    }
+    std::sort(faces.begin(), faces.end());
+    return faces;
 }
 
 std::optional<TriangleMesh> with_regions_up_to(std::uint32_t largest, const TriangleMesh& mesh) {
@@ -85,7 +108,7 @@ std::vector<FaceSet> sets_for_solvers(const TriangleMesh& mesh) {
     for (const NamedRegion& region : named_regions(mesh)) {
         if (named.count(region.region) == 0) sets.push_back({region.name, {region.region}});
     }
-    std::set<std::string> taken{upper_case(kAllElements)};
+    Taken taken{{upper_case(kAllElements), 1}};
     for (FaceSet& s : sets) s.name = solver_name(s.name, taken);
     return sets;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,15 @@ struct NamedRegion {
 
 /// The regions that have faces, ascending. A mesh without regions is one, 0, named "all". O(faces log regions).
 [[nodiscard]] std::vector<NamedRegion> named_regions(const TriangleMesh& mesh);
+
+/// The faces of each region, ascending.
+using FacesOfRegions = std::map<std::uint32_t, std::vector<std::uint32_t>>;
+
+/// O(faces log regions). \pre the mesh has regions.
+[[nodiscard]] FacesOfRegions faces_of_regions(const TriangleMesh& mesh);
+
+/// The faces of a set, ascending. O(result log result + regions of the set).
+[[nodiscard]] std::vector<std::uint32_t> faces_of_set(const FaceSet& set, const FacesOfRegions& of_regions);
 
 /// The mesh with its regions numbered from 1 in ascending order, 0 aside, where one is over `largest`, for formats that have no
 /// room for it; none where all fit. Of more regions than that the last become 0. O(faces log regions).

@@ -53,8 +53,8 @@ void PhysicalGroups::apply(TriangleMesh& mesh) const {
         if (regions != std::vector<std::uint32_t>{group}) called.try_emplace(group, "physical_" + std::to_string(group));
     }
     for (const auto& [group, name] : called) {
-        if (const auto regions = regions_of.find(group); regions != regions_of.end())
-            mesh.sets.push_back({name, regions->second});
+        const auto regions = regions_of.find(group);
+        mesh.sets.push_back({name, regions == regions_of.end() ? std::vector<std::uint32_t>() : regions->second});
     }
     for (std::uint32_t& r : mesh.regions) r = region[r];
 }

@@ -37,15 +37,6 @@ std::string with_blanks(std::string_view line) {
     return text;
 }
 
-/// Numbers may leave the E out, and have D for it: "1.5-3", "2.D+4".
-std::optional<double> parse_real(std::string_view field) {
-    std::string text(field);
-    for (char& c : text) c = c == 'd' || c == 'D' ? 'e' : c;
-    const std::size_t sign = text.find_last_of("+-");
-    if (sign != std::string::npos && sign > 0 && text[sign - 1] != 'e' && text[sign - 1] != 'E') text.insert(sign, "e");
-    return parse_number(text);
-}
-
 class BdfText {
 public:
     BdfText(std::string_view text, std::uint32_t max_faces) : lines_(text), builder_(max_faces) {}
@@ -77,7 +68,10 @@ public:
         Expected<TriangleMesh> mesh = builder_.take();
         // One property, and that the first, says nothing: a file needs some.
         const auto is_one = [](std::uint32_t region) { return region == 1; };
-        if (mesh && mesh->sets.empty() && std::all_of(mesh->regions.begin(), mesh->regions.end(), is_one)) mesh->regions.clear();
+        const auto is_unused = [](const FaceSet& set) { return set.regions.empty(); };
+        if (mesh && std::all_of(mesh->sets.begin(), mesh->sets.end(), is_unused) &&
+            std::all_of(mesh->regions.begin(), mesh->regions.end(), is_one))
+            mesh->regions.clear();
         return mesh;
     }
 
@@ -129,7 +123,7 @@ private:
     void take_free(std::string_view rest, std::size_t fields) {
         for (std::size_t i = 0; i < fields; ++i) {
             const std::string_view field = next_field(rest, ',');
-            const bool mark = rest.empty() && (field.starts_with('+') || field.starts_with('*')) && !parse_real(field);
+            const bool mark = rest.empty() && (field.starts_with('+') || field.starts_with('*')) && !parse_fortran_number(field);
             card_->fields.push_back(mark ? std::string_view() : field);
         }
     }
@@ -184,7 +178,7 @@ private:
         Vec3 position;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::string_view text = field(card, 2 + axis);
-            const std::optional<double> value = text.empty() ? 0.0 : parse_real(text);
+            const std::optional<double> value = text.empty() ? 0.0 : parse_fortran_number(text);
             if (!value) return error(card, Cause::kMalformedInput, "expected a coordinate, " + found(text));
             position[static_cast<Eigen::Index>(axis)] = *value;
         }

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/quoted.h"
 #include "vsplit/base/error.h"
 
 namespace vsplit {
@@ -20,9 +21,6 @@ struct Place {
 
 /// "line 12: what".
 [[nodiscard]] Error read_error(Cause cause, Place place, std::string_view what);
-
-/// `text` in quotes, fit for a message whatever a file holds: printable ASCII, at most 40 characters of it.
-[[nodiscard]] std::string quoted(std::string_view text);
 
 /// "found 'x'", or "found the line's end" for an empty word.
 [[nodiscard]] std::string found(std::string_view word);

@@ -17,7 +17,7 @@ namespace vsplit {
 namespace {
 
 /// What is made of the lines under a keyword.
-enum class Section { kSkipped, kNodes, kElements, kSet, kSurface, kUnion, kInstance };
+enum class Section { kSkipped, kNodes, kElements, kOthers, kSet, kSurface, kUnion, kInstance };
 
 /// Reads the surface of an Abaqus or CalculiX input deck: *NODE, *ELEMENT, *ELSET, *SURFACE of elements, each part as often as
 /// it is placed. What else there is (materials, steps, node sets) says nothing about the mesh and is passed over.
@@ -107,13 +107,13 @@ private:
                 "3, 4, 6, 8 or 9 nodes; passed over solids, beams, trusses, springs, masses, connectors");
         }
         element_ = *element;
-        section_ = element_.nodes == 0 ? Section::kSkipped : Section::kElements;
+        section_ = element_.nodes == 0 ? Section::kOthers : Section::kElements;
         if (Status few = charge_set(elset_.empty() ? 0 : kSetBytes); !few) return few;
         if (element_.is_face()) return Done{};
         if (passed_over_.empty()) passed_over_line_ = keyword_line_;
         if (passed_over_.empty()) passed_over_ = type_;
-        // A set without a face is a set that others may name: a range of none.
-        if (!elset_.empty()) builder_.add_to_set(elset_, 1, 0, 1, at_line(keyword_line_));
+        // A set without a face is a set that others may name.
+        if (!elset_.empty()) builder_.add_set(elset_);
         return Done{};
     }
 
@@ -233,6 +233,8 @@ private:
                 return read_node(line);
             case Section::kElements:
                 return read_element(line);
+            case Section::kOthers:
+                return pass_over(next_field(line, ','));
             case Section::kSet:
                 return keyword_.has("GENERATE") ? read_generated(line) : read_members(line);
             case Section::kSurface:
@@ -260,7 +262,7 @@ private:
 
     /// One that is left out is 0.
     [[nodiscard]] Expected<double> read_coordinate(std::string_view field) const {
-        const std::optional<double> value = field.empty() ? 0.0 : parse_number(field);
+        const std::optional<double> value = field.empty() ? 0.0 : parse_fortran_number(field);
         if (value) return *value;
         return malformed("expected a coordinate, " + found(field)).error();
     }
@@ -279,14 +281,23 @@ private:
                              std::to_string(numbers_.size() - 1) + " nodes; expected " + std::to_string(element_.nodes));
         }
         if (!element_.is_face()) {
-            numbers_.clear();
+            builder_.skip_element(assembly_.number(scope_, numbers_[0]));
             builder_.skip_solid();
+            numbers_.clear();
             return Done{};
         }
         for (std::int64_t& number : numbers_) number = assembly_.number(scope_, number);
         const std::vector<std::int64_t> numbers = std::exchange(numbers_, {});
-        if (!elset_.empty()) builder_.add_to_set(elset_, numbers[0], numbers[0], 1, place());
+        if (!elset_.empty()) builder_.define_in_set(elset_, numbers[0], place());
         return builder_.add_element(numbers[0], std::span(numbers).subspan(1, element_.corners), at_line(element_line_));
+    }
+
+    /// Of elements that are passed over unread a line begins with a number: the element's, or where they go on over lines a
+    /// node's, which then passes for an element's.
+    Status pass_over(std::string_view field) {
+        const std::optional<std::int64_t> id = parse_integer(field);
+        if (id && *id >= 0 && *id < InpAssembly::kNumbers) builder_.skip_element(assembly_.number(scope_, *id));
+        return Done{};
     }
 
     Status end_element() {
@@ -313,8 +324,8 @@ private:
                              std::to_string(*last));
         }
         if (Status few = charge_set(kMemberBytes); !few) return few;
-        builder_.add_to_set(assembly_.set_name(scope_, set_), assembly_.number(member_scope_, *first),
-                            assembly_.number(member_scope_, *last), step, place());
+        builder_.add_range_to_set(assembly_.set_name(scope_, set_), assembly_.number(member_scope_, *first),
+                                  assembly_.number(member_scope_, *last), step, place());
         return Done{};
     }
 
@@ -343,7 +354,7 @@ private:
         const Expected<std::int64_t> given = read_integer(name, "an element's number");
         if (!given) return given.error();
         const std::int64_t id = assembly_.number(scope, *given);
-        builder_.add_to_set(set, id, id, 1, place());
+        builder_.add_to_set(set, id, place());
         return Done{};
     }
 

@@ -89,7 +89,9 @@ Expected<WeldCounts> weld_read(TriangleMesh& mesh, MeshFormat format, double tol
     const bool merged = family_of(format) == MeshFormat::kStlBinary;
     const std::uint64_t before = merged ? 3 * std::uint64_t{mesh.face_count()} - mesh.vertex_count() : 0;
     Expected<WeldCounts> counts = merged && tolerance == 0 ? drop_unused(mesh) : weld(mesh, tolerance);
-    if (counts) counts->merged_vertices += static_cast<std::uint32_t>(before);
+    if (!counts) return counts;
+    counts->merged_vertices += static_cast<std::uint32_t>(before);
+    counts->unused_sets = drop_unused_sets(mesh);
     return counts;
 }
 

@@ -135,6 +135,7 @@ private:
             for (std::uint64_t i = 0; i < 2 * ghosts && in_.ok(); ++i)
                 static_cast<void>(in_.integer(Kind::kInt32, "a ghost entity"));
         }
+        has_entities_ = true;
         std::array<std::uint64_t, 4> counts{};
         for (std::uint64_t& count : counts) count = in_.count(size_kind_, "a number of entities", kMost);
         for (std::size_t dimension = 0; dimension < 4; ++dimension) {
@@ -221,11 +222,17 @@ private:
         for (std::uint64_t block = 0; block < blocks && in_.ok(); ++block) {
             static_cast<void>(in_.integer(Kind::kInt32, "an entity's dimension"));
             const std::int64_t entity = in_.integer(Kind::kInt32, "an entity's tag");
+            const Place entity_place = in_.place();
             const std::optional<MshElement> type = read_type();
             const std::uint64_t count = in_.count(size_kind_, "a number of elements", in_.left());
             read += count;
             const auto combination = combination_of_.find(entity);
-            const std::uint32_t region = combination == combination_of_.end() ? 0 : combination->second;
+            const bool known = combination != combination_of_.end();
+            if (!known && has_entities_ && in_.ok() && type->corners > 0) {
+                return in_.fail_at(entity_place, Cause::kIndexOutOfRange,
+                                   "elements are on surface " + std::to_string(entity) + ", which $Entities does not define");
+            }
+            const std::uint32_t region = known ? combination->second : 0;
             for (std::uint64_t i = 0; i < count && in_.ok(); ++i) {
                 const std::uint64_t tag = in_.count(size_kind_, "an element's tag", kMost);
                 const MshFace face = read_element(static_cast<std::int64_t>(tag), *type, size_kind_);
@@ -319,6 +326,7 @@ private:
     std::endian order_ = std::endian::little;
     Kind size_kind_ = Kind::kUint64;
     PhysicalGroups groups_;
+    bool has_entities_ = false;
     std::map<std::int64_t, std::uint32_t> combination_of_;  // of groups, by the surface
     MshFace last_face_;                                     // of 2.2
 };

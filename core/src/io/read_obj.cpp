@@ -1,27 +1,17 @@
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "io/group_runs.h"
 #include "io/mesh_builder.h"
+#include "io/obj_keyword.h"
 #include "io/read_error.h"
 #include "io/readers.h"
 #include "io/text_lines.h"
 
 namespace vsplit {
 namespace {
-
-/// Keywords of what makes no face, or is only told of the faces: Wavefront's format 3.0 and its older statements. Those of curves
-/// and free-form surfaces count where a `surf` uses them.
-constexpr auto kPassedOver = std::to_array<std::string_view>(
-    {"vn",   "vt",    "vp",       "o",        "s",          "l",         "p",     "mg",    "mtllib", "usemtl", "usemap", "maplib",
-     "lod",  "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech", "stech", "cstype", "deg",    "bmat",   "step",
-     "parm", "trim",  "hole",     "scrv",     "sp",         "end",       "con",   "curv",  "curv2",  "res",    "cdc",    "cdp"});
-
-/// Keywords of what makes surface that is not read.
-constexpr auto kNotRead = std::to_array<std::string_view>({"surf", "call", "csh", "bsp", "bzp"});
 
 /// Reads the `v`, `f` and `g` lines of an OBJ; other lines that it may have are passed over by name.
 class ObjText {
@@ -62,17 +52,23 @@ private:
 
     Status read_line() {
         const std::string_view keyword = next_word(line_);
-        if (keyword == "v") return read_vertex();
-        if (keyword == "f" || keyword == "fo") return read_face();  // "fo" is how old files spell it
-        if (keyword == "g") return begin_groups();
-        const auto is_one_of = [&](const auto& words) { return std::find(words.begin(), words.end(), keyword) != words.end(); };
-        if (keyword.empty() || keyword.front() == '#' || is_one_of(kPassedOver)) return Done{};
-        if (is_one_of(kNotRead)) {
-            return read_error(
-                Cause::kUnsupported, at_line(number_),
-                quoted(keyword) + " is not read; faces ('f') are: convert free-form surfaces and other files to them");
+        if (keyword.empty() || keyword.front() == '#') return Done{};
+        const std::optional<ObjLine> line = obj_line(keyword);
+        if (!line) return malformed("expected a keyword such as 'v' or 'f', " + found(keyword));
+        switch (*line) {
+            case ObjLine::kVertex:
+                return read_vertex();
+            case ObjLine::kFace:
+                return read_face();
+            case ObjLine::kGroup:
+                return begin_groups();
+            case ObjLine::kPassedOver:
+                return Done{};
+            case ObjLine::kNotRead:
+                break;
         }
-        return malformed("expected a keyword such as 'v' or 'f', " + found(keyword));
+        return read_error(Cause::kUnsupported, at_line(number_),
+                          quoted(keyword) + " is not read; faces ('f') are: convert free-form surfaces and other files to them");
     }
 
     /// The faces that follow are in each of the groups that are named.

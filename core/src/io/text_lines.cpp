@@ -102,6 +102,16 @@ std::optional<double> parse_number(std::string_view word) {
     return error == std::errc::result_out_of_range ? out_of_range(word) : value;
 }
 
+std::optional<double> parse_fortran_number(std::string_view word) {
+    if (const std::optional<double> value = parse_number(word)) return value;
+    if (word.find_first_not_of("0123456789.+-dDeE") != std::string_view::npos) return {};
+    std::string text(word);
+    for (char& c : text) c = c == 'd' || c == 'D' ? 'e' : c;
+    const std::size_t sign = text.find_last_of("+-");
+    if (sign != std::string::npos && sign > 0 && text[sign - 1] != 'e' && text[sign - 1] != 'E') text.insert(sign, "e");
+    return parse_number(text);
+}
+
 std::optional<std::int64_t> parse_integer(std::string_view word) {
     word = without_plus(word);
     std::int64_t value = 0;

@@ -57,6 +57,9 @@ private:
 /// small 0. Empty when it is no number.
 [[nodiscard]] std::optional<double> parse_number(std::string_view word);
 
+/// As parse_number, of a number as Fortran reads them: the exponent's letter may be a D, or left out: "1.D+4", "1.5-3".
+[[nodiscard]] std::optional<double> parse_fortran_number(std::string_view word);
+
 /// The integer that `word` is, whole. Empty when it is none or does not fit.
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);
 

@@ -73,18 +73,17 @@ private:
 
     void put_sets(const TriangleMesh& mesh, const std::vector<FaceSet>& sets) {
         text_ << "<t:trianglesets>\n";
+        const FacesOfRegions of_regions = faces_of_regions(mesh);
         for (std::size_t s = 0; s < sets.size(); ++s) {
             text_ << "<t:triangleset name=\"" << xml_escaped(sets[s].name) << "\" identifier=\"set_" << s + 1 << "\">\n";
-            const std::set<std::uint32_t> regions(sets[s].regions.begin(), sets[s].regions.end());
-            const auto in_set = [&](std::uint32_t f) { return regions.count(mesh.regions[f]) > 0; };
-            for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-                if (!in_set(f)) continue;
-                const std::uint32_t first = f;
-                while (f + 1 < mesh.face_count() && in_set(f + 1)) ++f;
-                if (first == f)
-                    text_ << "<t:ref index=\"" << f << "\"/>\n";
+            const std::vector<std::uint32_t> faces = faces_of_set(sets[s], of_regions);
+            for (std::size_t i = 0; i < faces.size(); ++i) {
+                const std::uint32_t first = faces[i];
+                while (i + 1 < faces.size() && faces[i + 1] == faces[i] + 1) ++i;
+                if (first == faces[i])
+                    text_ << "<t:ref index=\"" << first << "\"/>\n";
                 else
-                    text_ << "<t:refrange startindex=\"" << first << "\" endindex=\"" << f << "\"/>\n";
+                    text_ << "<t:refrange startindex=\"" << first << "\" endindex=\"" << faces[i] << "\"/>\n";
                 pass_on(kPiece);
             }
             text_ << "</t:triangleset>\n";

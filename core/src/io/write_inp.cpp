@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <map>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/elements.h"
@@ -28,15 +25,8 @@ void write_numbers(TextWriter& text, const std::vector<std::uint32_t>& numbers) 
     }
 }
 
-using FacesOfRegions = std::map<std::uint32_t, std::vector<std::uint32_t>>;
-
 void write_set(TextWriter& text, const Elements& elements, const FaceSet& set, const FacesOfRegions& faces_of) {
-    std::vector<std::uint32_t> faces;
-    for (const std::uint32_t region : std::set(set.regions.begin(), set.regions.end())) {
-        const auto found = faces_of.find(region);
-        if (found != faces_of.end()) faces.insert(faces.end(), found->second.begin(), found->second.end());
-    }
-    std::sort(faces.begin(), faces.end());
+    const std::vector<std::uint32_t> faces = faces_of_set(set, faces_of);
     std::vector<std::uint32_t> nodes;
     for (const std::uint32_t f : faces) {
         for (std::uint32_t i = 0; i < elements.order_nodes(); ++i) nodes.push_back(elements.node(f, i));
@@ -67,8 +57,7 @@ std::string write_inp(const Elements& elements) {
         text << "\n";
     }
     if (!mesh.regions.empty()) {
-        FacesOfRegions faces_of;
-        for (NamedRegion& region : named_regions(mesh)) faces_of[region.region] = std::move(region.faces);
+        const FacesOfRegions faces_of = faces_of_regions(mesh);
         for (const FaceSet& set : sets_for_solvers(mesh)) write_set(text, elements, set, faces_of);
     }
     return text.take();

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <map>
+#include <set>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "io/elements.h"
@@ -22,7 +24,6 @@ public:
         : elements_(elements),
           mesh_(elements.mesh()),
           regions_(named_regions(mesh_)),
-          named_sets_(sets_with_faces(mesh_)),
           text_(text),
           out_(text ? NumberWriter::As::kText : NumberWriter::As::kLittleEndian) {}
 
@@ -61,14 +62,17 @@ private:
     /// Names of regions; with_sets: and of sets that are no region's name, with tags that no region has.
     void write_names(bool with_sets) {
         std::vector<std::string> lines;
+        std::set<std::string_view> names;
         for (const NamedRegion& region : regions_) {
             if (region.region != 0 && region.has_name) lines.push_back(name_line(region.region, region.name));
+            if (region.has_name) names.insert(region.name);
         }
-        for (const FaceSet& set : named_sets_) {
-            const auto is_name = [&](const NamedRegion& region) { return region.has_name && region.name == set.name; };
-            if (!with_sets || std::any_of(regions_.begin(), regions_.end(), is_name)) continue;
-            const std::uint64_t tag = std::uint64_t{regions_.back().region} + 1 + sets_.size();
-            sets_.push_back({&set, static_cast<std::int32_t>(tag)});
+        std::uint64_t sets = 0;
+        for (const FaceSet& set : sets_with_faces(mesh_)) {
+            if (!with_sets || names.count(set.name) != 0) continue;
+            const std::uint64_t tag = std::uint64_t{regions_.back().region} + 1 + sets++;
+            for (const std::uint32_t region : std::set(set.regions.begin(), set.regions.end()))
+                set_tags_[region].push_back(static_cast<std::int32_t>(tag));
             lines.push_back(name_line(tag, set.name));
         }
         if (lines.empty()) return;
@@ -81,9 +85,8 @@ private:
     [[nodiscard]] std::vector<std::int32_t> groups_of(std::uint32_t region) const {
         std::vector<std::int32_t> groups;
         if (region != 0) groups.push_back(static_cast<std::int32_t>(region));
-        for (const auto& [set, tag] : sets_) {
-            if (std::find(set->regions.begin(), set->regions.end(), region) != set->regions.end()) groups.push_back(tag);
-        }
+        if (const auto tags = set_tags_.find(region); tags != set_tags_.end())
+            groups.insert(groups.end(), tags->second.begin(), tags->second.end());
         return groups;
     }
 
@@ -189,8 +192,7 @@ private:
     const Elements& elements_;
     const TriangleMesh& mesh_;
     std::vector<NamedRegion> regions_;
-    std::vector<FaceSet> named_sets_;
-    std::vector<std::pair<const FaceSet*, std::int32_t>> sets_;  // of several regions, and their tags
+    std::map<std::uint32_t, std::vector<std::int32_t>> set_tags_;  // by region: of the sets of several regions that it is in
     bool text_;
     NumberWriter out_;
 };

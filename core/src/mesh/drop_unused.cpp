@@ -1,6 +1,7 @@
 #include "mesh/drop_unused.h"
 
 #include <algorithm>
+#include <set>
 
 namespace vsplit {
 namespace {
@@ -41,6 +42,19 @@ WeldCounts drop_unused(TriangleMesh& mesh) {
         for (std::uint32_t& vertex : face) vertex = number[vertex];
     }
     return counts;
+}
+
+std::vector<std::string> drop_unused_sets(TriangleMesh& mesh) {
+    std::vector<std::string> names;
+    if (mesh.sets.empty()) return names;
+    const std::set<std::uint32_t> used(mesh.regions.begin(), mesh.regions.end());
+    std::erase_if(mesh.sets, [&](const FaceSet& set) {
+        const auto has_face = [&](std::uint32_t region) { return used.count(region) != 0; };
+        if (std::any_of(set.regions.begin(), set.regions.end(), has_face)) return false;
+        names.push_back(set.name);
+        return true;
+    });
+    return names;
 }
 
 }  // namespace vsplit

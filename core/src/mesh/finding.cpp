@@ -20,6 +20,8 @@ std::string_view finding_name(Finding::Kind kind) {
             return "UNUSED_VERTEX";
         case Finding::Kind::kCollapsedFace:
             return "COLLAPSED_FACE";
+        case Finding::Kind::kUnusedSet:
+            return "UNUSED_SET";
         case Finding::Kind::kSelfIntersection:
             return "SELF_INTERSECTION";
         case Finding::Kind::kMergedVertex:
@@ -42,6 +44,10 @@ std::string_view finding_name(Finding::Kind kind) {
             return "DROPPED_SPECK";
         case Finding::Kind::kFilledHole:
             return "FILLED_HOLE";
+        case Finding::Kind::kLostFace:
+            return "LOST_FACE";
+        case Finding::Kind::kEmptiedGroup:
+            return "EMPTIED_GROUP";
     }
     return "UNKNOWN";
 }

@@ -9,7 +9,11 @@
 #include <string>
 #include <vector>
 
+<<<<<<< HEAD
 #include "base/huge_pages.h"
+=======
+#include "base/quoted.h"
+>>>>>>> w8
 #include "mesh/disjoint_sets.h"
 #include "mesh/half_edges.h"
 #include "quality/quality_of_edges.h"
@@ -233,6 +237,17 @@ std::string places(const Finding& finding, bool edges) {
 
 namespace {
 
+void report_unused_sets(std::vector<Finding>& findings, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    constexpr std::size_t kShown = 10;
+    Finding finding{Finding::Kind::kUnusedSet, static_cast<std::uint32_t>(names.size()), {}, {}, {}};
+    finding.message = std::to_string(names.size()) + " sets that no face is in were dropped: ";
+    for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i)
+        finding.message.append(i == 0 ? "" : ", ").append(quoted(names[i]));
+    if (names.size() > kShown) finding.message += ", ...";
+    findings.push_back(std::move(finding));
+}
+
 /// Where the examples of a finding are.
 void add_places(const TriangleMesh& mesh, Finding& finding) {
     const bool of_edges = finding.kind <= Finding::Kind::kInconsistentEdge;
@@ -293,6 +308,7 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
                    "vertices that no face used were dropped");
     report_dropped(report.findings, Finding::Kind::kCollapsedFace, weld.collapsed_faces,
                    "faces with two equal corners after the weld were dropped");
+    report_unused_sets(report.findings, weld.unused_sets);
     return report;
 }
 

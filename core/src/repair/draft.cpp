@@ -39,10 +39,18 @@ void Draft::erase_faces(const std::vector<bool>& marked) {
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
         if (marked[f]) continue;
         mesh.faces[kept] = mesh.faces[f];
+        if (!mesh.regions.empty()) mesh.regions[kept] = mesh.regions[f];
         parent[kept++] = parent[f];
     }
     mesh.faces.resize(kept);
     parent.resize(kept);
+    if (!mesh.regions.empty()) mesh.regions.resize(kept);
+}
+
+void Draft::add_faces(std::span<const Triangle> faces, std::uint32_t beside) {
+    mesh.faces.insert(mesh.faces.end(), faces.begin(), faces.end());
+    parent.resize(mesh.faces.size(), parent[beside]);
+    if (!mesh.regions.empty()) mesh.regions.resize(mesh.faces.size(), mesh.regions[beside]);
 }
 
 void Draft::drop_collapsed() {
@@ -72,8 +80,7 @@ void insert_on_sides(Draft& draft, std::vector<SideVertex> vertices) {
             begin = end;
         }
         draft.mesh.faces[face] = pieces[0];
-        draft.mesh.faces.insert(draft.mesh.faces.end(), pieces.begin() + 1, pieces.end());
-        draft.parent.resize(draft.mesh.faces.size(), draft.parent[face]);
+        draft.add_faces(std::span(pieces).subspan(1), face);
     }
 }
 

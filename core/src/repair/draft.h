@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesh/half_edges.h"
@@ -9,7 +10,7 @@
 
 namespace vsplit {
 
-/// A mesh under repair. Every face knows the face of the input it comes from.
+/// A mesh under repair. Every face knows the face of the input it comes from, and has its region where there are any.
 struct Draft {
     TriangleMesh mesh;
     std::vector<std::uint32_t> parent;  ///< as in RepairedMesh
@@ -23,7 +24,10 @@ struct Draft {
     /// Drops the faces that are marked. O(faces).
     void erase_faces(const std::vector<bool>& marked);
 
-    /// Drops faces with two equal corners; counts them as `kind`. O(faces).
+    /// Adds faces that are parts of another or lie beside it, and have its region. O(faces added).
+    void add_faces(std::span<const Triangle> faces, std::uint32_t beside);
+
+    /// Drops faces with two equal corners. O(faces).
     void drop_collapsed();
 };
 

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <span>
 #include <tuple>
 #include <vector>
 
 #include "mesh/disjoint_sets.h"
+#include "repair/region_union.h"
 #include "repair/steps.h"
 
 namespace vsplit {
@@ -27,9 +29,11 @@ SortedFace sorted_face(const Triangle& t, std::uint32_t face) {
 
 enum class Fate : unsigned char { kKept, kDropped, kCancelled };
 
-/// What becomes of the faces [first, last) on the same three vertices. Of faces that cancel the first is kCancelled, the others
+/// What becomes of faces on the same three vertices. Of faces that cancel the first is kCancelled, the others
 /// are dropped, and `opposite` of the first is one that looks the other way.
-void decide(const SortedFace* first, const SortedFace* last, std::vector<Fate>& fate, std::vector<std::uint32_t>& opposite) {
+void decide(std::span<const SortedFace> copies, std::vector<Fate>& fate, std::vector<std::uint32_t>& opposite) {
+    const SortedFace* const first = copies.data();
+    const SortedFace* const last = first + copies.size();
     const auto odd = std::count_if(first, last, [](const SortedFace& f) { return f.odd; });
     const auto even = (last - first) - odd;
     const auto find = [&](bool is_odd) {
@@ -91,28 +95,63 @@ void settle_cancelled(const TriangleMesh& mesh, std::vector<Fate>& fate, const s
     }
 }
 
-}  // namespace
+using Copies = std::span<const SortedFace>;
 
-void drop_duplicates(Draft& draft) {
-    const TriangleMesh& mesh = draft.mesh;
+/// Faces on the same three vertices stand together.
+std::vector<SortedFace> sorted_faces(const TriangleMesh& mesh) {
     std::vector<SortedFace> sorted;
     sorted.reserve(mesh.faces.size());
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) sorted.push_back(sorted_face(mesh.faces[f], f));
     std::sort(sorted.begin(), sorted.end(), [](const SortedFace& left, const SortedFace& right) {
         return std::tie(left.corners, left.face) < std::tie(right.corners, right.face);
     });
+    return sorted;
+}
+
+/// Those that stand together, two or more.
+std::vector<Copies> find_copies(const std::vector<SortedFace>& sorted) {
+    std::vector<Copies> all;
+    for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+        for (end = begin + 1; end < sorted.size() && sorted[end].corners == sorted[begin].corners; ++end) {
+        }
+        if (end - begin > 1) all.push_back(std::span(sorted).subspan(begin, end - begin));
+    }
+    return all;
+}
+
+/// The face that is kept goes into the sets of its copies; what regions lose all the same is told.
+void join_regions(Draft& draft, const std::vector<Copies>& all, const std::vector<Fate>& fate) {
+    TriangleMesh& mesh = draft.mesh;
+    if (mesh.regions.empty()) return;
+    RegionUnion regions(mesh);
+    const auto lose = [&](std::uint32_t face, std::uint32_t region) {
+        draft.changes.add_loss(Finding::Kind::kLostFace, draft.centroid(face), draft.parent[face], regions.label(region));
+    };
+    for (const Copies& copies : all) {
+        const auto kept =
+            std::find_if(copies.begin(), copies.end(), [&](const SortedFace& f) { return fate[f.face] == Fate::kKept; });
+        for (const SortedFace& f : copies) {
+            if (kept == copies.end()) lose(f.face, mesh.regions[f.face]);  // a wall: none is kept
+            if (kept == copies.end() || f.face == kept->face) continue;
+            const RegionUnion::Joined joined = regions.join(mesh.regions[kept->face], mesh.regions[f.face]);
+            mesh.regions[kept->face] = joined.region;
+            if (joined.loses) lose(f.face, joined.lost);
+        }
+    }
+}
+
+}  // namespace
+
+void drop_duplicates(Draft& draft) {
+    const TriangleMesh& mesh = draft.mesh;
+    const std::vector<SortedFace> sorted = sorted_faces(mesh);
+    const std::vector<Copies> all = find_copies(sorted);
+    if (all.empty()) return;
     std::vector<Fate> fate(mesh.faces.size(), Fate::kKept);
     std::vector<std::uint32_t> opposite(mesh.faces.size(), kNone);
-    bool any = false;
-    for (std::size_t begin = 0; begin < sorted.size();) {
-        std::size_t end = begin + 1;
-        while (end < sorted.size() && sorted[end].corners == sorted[begin].corners) ++end;
-        if (end - begin > 1) decide(&sorted[begin], sorted.data() + end, fate, opposite);
-        any = any || end - begin > 1;
-        begin = end;
-    }
-    if (!any) return;
+    for (const Copies& copies : all) decide(copies, fate, opposite);
     settle_cancelled(mesh, fate, opposite);
+    join_regions(draft, all, fate);
     std::vector<bool> dropped(mesh.faces.size());
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
         dropped[f] = fate[f] == Fate::kDropped;

@@ -64,6 +64,7 @@ std::vector<Triangle> fill(TriangleMesh& mesh, const std::vector<std::uint32_t>&
     for (const std::uint32_t v : vertices) corners.push_back(mesh.positions[v]);
     std::vector<Triangle> faces = triangulate_loop(corners, [&](std::uint32_t i, std::uint32_t j) {
         const auto [a, b] = std::minmax(vertices[i], vertices[j]);
+        if (corners[i] == corners[j]) return false;  // copies that were cut apart: both faces on such an edge would have no area
         return !std::binary_search(edges.begin(), edges.end(), std::pair(a, b));
     });
     if (faces.empty()) return fan(mesh, vertices);
@@ -88,9 +89,7 @@ void fill_holes(Draft& draft, double size, const ExecutionContext& context) {
         const bool is_rim = extent > kOuterShare * pieces.box[pieces.of_face[beside]].diagonal();
         if (loop.size() > kMostEdges || extent > size || is_rim) continue;
         const Vec3 place = draft.at(origin(mesh, loop.front()));
-        const std::vector<Triangle> faces = fill(mesh, hole_vertices(mesh, loop), edges);
-        mesh.faces.insert(mesh.faces.end(), faces.begin(), faces.end());
-        draft.parent.resize(mesh.faces.size(), draft.parent[beside]);
+        draft.add_faces(fill(mesh, hole_vertices(mesh, loop), edges), beside);
         draft.changes.add(Finding::Kind::kFilledHole, place, draft.parent[beside]);
     }
 }

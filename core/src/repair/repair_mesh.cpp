@@ -45,6 +45,12 @@ void make_manifold(Draft& draft) {
     split_non_manifold(draft);
 }
 
+/// Faces without area go, and what that tears at borders is cut apart.
+void flatten(Draft& draft) {
+    remove_degenerate(draft);
+    make_manifold(draft);
+}
+
 /// The steps in the order that the header tells.
 void repair(Draft& draft, const RepairOptions& options, const ExecutionContext& context) {
     const double diagonal = bounding_box(draft.mesh).diagonal();
@@ -63,12 +69,13 @@ void repair(Draft& draft, const RepairOptions& options, const ExecutionContext& 
     drop_hanging_needles(draft);
     make_manifold(draft);
     if (context.cancelled()) return;
-    remove_degenerate(draft);
+    flatten(draft);
     if (context.cancelled()) return;
-    make_manifold(draft);
     if (full) {
         drop_specks(draft, options.speck_size.value_or(kSpeckShare * diagonal));
         fill_holes(draft, options.hole_size.value_or(kHoleShare * diagonal), context);
+        if (context.cancelled()) return;
+        flatten(draft);  // a hole whose border runs along a line is filled without area
         face_outward(draft);
     }
 }
@@ -97,9 +104,14 @@ void report_intersections(const TriangleMesh& mesh, std::vector<Finding>& findin
 
 Status check_options(const RepairOptions& options) {
     if (Status s = check_length(options.weld, "weld"); !s) return s;
-    if (Status s = check_length(options.stitch, "stitch"); !s) return s;
-    if (Status s = check_length(options.hole_size, "hole_size"); !s) return s;
-    return check_length(options.speck_size, "speck_size");
+    for (const auto& [length, field] : {std::pair(options.stitch, "stitch"), std::pair(options.hole_size, "hole_size"),
+                                        std::pair(options.speck_size, "speck_size")}) {
+        if (Status s = check_length(length, field); !s) return s;
+        if (length && options.mode != RepairMode::kFull)
+            return Error{Cause::kInvalidOption, std::string(field) + " is given; it is accepted with the repair FULL alone",
+                         field};
+    }
+    return Done{};
 }
 
 Expected<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options, const ExecutionContext& context) {
@@ -108,10 +120,7 @@ Expected<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions
     if (options.mode != RepairMode::kNone) {
         repair(draft, options, context);
         if (context.cancelled()) return ExecutionContext::cancelled_error();
-        draft.mesh.regions.clear();
-        for (const std::uint32_t parent : draft.parent) {
-            if (!mesh.regions.empty()) draft.mesh.regions.push_back(mesh.regions[parent]);
-        }
+        report_emptied_groups(draft, mesh);
         static_cast<void>(drop_unused(draft.mesh));  // of faces there are none to drop
     }
     RepairedMesh repaired{std::move(draft.mesh), std::move(draft.parent), draft.changes.take()};
@@ -122,16 +131,17 @@ Expected<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions
     return repaired;
 }
 
-Expected<MeshReport> inspect_source(TriangleMesh& mesh, const WeldCounts& weld, std::optional<RepairMode> repair,
+Expected<MeshReport> inspect_source(TriangleMesh& mesh, const WeldCounts& weld, const std::optional<RepairOptions>& repair,
                                     const ExecutionContext& context) {
     if (!repair) return inspect(mesh, weld);
-    Expected<RepairedMesh> repaired = repair_mesh(mesh, {.mode = *repair}, context);
+    Expected<RepairedMesh> repaired = repair_mesh(mesh, *repair, context);
     if (!repaired) return repaired.error();
     mesh = std::move(repaired->mesh);
     MeshReport report = inspect(mesh, weld);
     std::vector<Finding> findings = std::move(repaired->findings);
     for (const Finding& f : report.findings) {
-        const bool of_the_weld = f.kind == Finding::Kind::kUnusedVertex || f.kind == Finding::Kind::kCollapsedFace;
+        const bool of_the_weld = f.kind == Finding::Kind::kUnusedVertex || f.kind == Finding::Kind::kCollapsedFace ||
+                                 f.kind == Finding::Kind::kUnusedSet;
         if (of_the_weld) findings.push_back(f);
     }
     report.findings = std::move(findings);

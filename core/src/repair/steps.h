@@ -40,4 +40,8 @@ void drop_specks(Draft& draft, double size);
 /// Fills holes whose box has a diagonal of at most `size`. \pre manifold. See `repair_mesh`.
 void fill_holes(Draft& draft, double size, const ExecutionContext& context);
 
+/// Counts the sets, and the regions in no set, that have faces in `input` and none in the draft. O(faces log faces + members of
+/// sets).
+void report_emptied_groups(Draft& draft, const TriangleMesh& input);
+
 }  // namespace vsplit

@@ -22,6 +22,7 @@ struct Finding {
         kDuplicateFace,      ///< the same three vertices as an earlier face
         kUnusedVertex,       ///< no face used it; dropped by the weld
         kCollapsedFace,      ///< two corners equal after the weld; dropped
+        kUnusedSet,          ///< a named set of the file that no face is in; dropped when it was read
         kSelfIntersection,   ///< two faces without a common vertex that pass through each other; from `repair_mesh`
         // What a repair changed: from `repair_mesh`, which says what each does.
         kMergedVertex,
@@ -34,6 +35,8 @@ struct Finding {
         kSplitVertex,
         kDroppedSpeck,
         kFilledHole,
+        kLostFace,      ///< dropped, and no other is in its region, or sets, for it
+        kEmptiedGroup,  ///< a set, or a region in no set, that had faces
     };
     static constexpr std::size_t kExamples = 16;
 

@@ -1,17 +1,20 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "vsplit/base/expected.h"
 #include "vsplit/mesh/triangle_mesh.h"
 
 namespace vsplit {
 
-/// What a weld changed.
+/// What a weld changed, and what a reader dropped beside.
 struct WeldCounts {
     std::uint32_t merged_vertices = 0;  ///< vertices that became another one
     std::uint32_t unused_vertices = 0;  ///< vertices no face used, dropped
     std::uint32_t collapsed_faces = 0;  ///< faces with two equal corners after merging, dropped: they have no area and no inside
+    std::vector<std::string> unused_sets{};  ///< names of a file's sets that no face is in, dropped
 };
 
 /// Merges vertices that are equal (`tolerance` 0; -0 equals 0), or within `tolerance` (length, model units) of a vertex that

@@ -60,7 +60,10 @@ struct UploadOptions {
     std::optional<MeshFormat> format;  ///< told from the bytes when empty
     double weld = 0;                   ///< length, model units, >= 0; 0 merges exactly equal vertices
     v1::Repair repair = v1::REPAIR_UNSPECIFIED;
-    std::optional<LengthUnit> unit{};  ///< of the file's lengths, where it does not say it
+    std::optional<double> stitch{};      ///< with FULL, length >= 0: borders this close are joined; default 0.2 % of the diagonal
+    std::optional<double> hole_size{};   ///< with FULL, length >= 0: holes with a box of at most this diagonal are filled; 5 %
+    std::optional<double> speck_size{};  ///< with FULL, length >= 0: pieces with a box of a smaller diagonal are dropped; 0.1 %
+    std::optional<LengthUnit> unit{};    ///< of the file's lengths, where it does not say it
     std::function<void(std::uint64_t sent, std::uint64_t total)> on_progress;  ///< bytes; called on the caller's thread
 };
 
