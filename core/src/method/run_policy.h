@@ -33,10 +33,9 @@ template <class Policy, class Faces>
     return result;
 }
 
-/// Whether the surface, and creases where a limit was given, are within max_deviation.
+/// Whether surface and creases are within max_deviation.
 [[nodiscard]] inline bool keeps_deviation(const MethodResult& result, const MethodRun& run) {
-    const double of_creases = run.limit ? result.quality.crease_deviation_max.value_or(0) : 0;
-    return std::max(result.quality.deviation_max.value_or(0), of_creases) <= run.max_deviation;
+    return furthest(result) <= run.max_deviation;
 }
 
 /// Simplifies, shows the resolution that `faces_of(mrr)` names, and measures. What lies between samples may be further away than
