@@ -54,7 +54,7 @@ public:
     [[nodiscard]] Evaluation evaluate_mend(HalfEdge h, const std::optional<Vec3>& at) {
         place_to_mend_ = at;
         mends_ = true;
-        const Evaluation found = evaluate(h);
+        Evaluation found = evaluate(h);
         mends_ = false;
         place_to_mend_.reset();
         return found;
