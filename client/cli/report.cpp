@@ -187,20 +187,6 @@ std::string bounds_line(const v1::Representation& r, const std::string& unit) {
     return line("bounds", broken);
 }
 
-/// Where the result is further away than the default of max_deviation, which is kept at samples; one that is given is a violation
-/// then.
-std::string beyond_default_line(const v1::Representation& r) {
-    const bool improved = r.has_improve_options();
-    const bool bounded = improved ? r.improve_options().has_max_deviation() : r.control_options().has_max_deviation();
-    const double limit = improved ? r.improve_options().max_deviation() : r.control_options().max_deviation();
-    if (!bounded || std::max(r.quality().deviation_max(), r.quality().crease_deviation_max()) <= limit) return {};
-    for (const v1::Violation& violation : r.violations()) {
-        if (violation.bound() == "max_deviation") return {};
-    }
-    return line("beyond",
-                "the max deviation, which by default is kept at samples: give --max-deviation to have it kept for certain");
-}
-
 /// How large the stream of records is, and what of it each kind takes.
 std::string records_line(const v1::RecordCounts& r) {
     if (r.splits() == 0) return {};
@@ -221,8 +207,8 @@ std::string text_of(const v1::Representation& r, bool detailed, const std::strin
     if (!r.id().empty()) text += line("representation", r.id());
     text += line("method", method_name(r.method()));
     text += line("faces", grouped(r.faces()) + " (" + grouped(r.faces_min()) + " to " + grouped(r.faces_max()) + " at hand)");
-    text += option_lines(r, unit) + quality_lines(r.quality(), unit) + beyond_default_line(r) + bounds_line(r, unit) +
-            records_line(r.records()) + group_lines(r);
+    text += option_lines(r, unit) + quality_lines(r.quality(), unit) + bounds_line(r, unit) + records_line(r.records()) +
+            group_lines(r);
     if (r.has_elapsed()) text += line("time", fixed(seconds(r.elapsed()), 2) + " s");
     for (const v1::Slivers& slivers : r.slivers()) text += line("slivers", slivers.message());
     return text + details(r.quality(), detailed, unit);

@@ -83,19 +83,6 @@ TEST(ReportTest, EveryLengthHasItsUnit) {
     EXPECT_TRUE(has(report(comparison, false), "to source         0 to 0 um\n")) << report(comparison, false);
 }
 
-TEST(ReportTest, SaysThatADefaultBoundOfTheDeviationIsNoPromise) {
-    v1::Representation made;
-    made.mutable_control_options()->set_max_deviation(1);
-    made.mutable_quality()->set_deviation_max(0.9);
-    made.mutable_quality()->set_crease_deviation_max(1);
-    EXPECT_FALSE(has(report(made, false), "beyond")) << report(made, false);
-    made.mutable_quality()->set_crease_deviation_max(1.1);
-    EXPECT_TRUE(has(report(made, false), "beyond            the max deviation, which by default is kept at samples"))
-        << report(made, false);
-    made.add_violations()->set_bound("max_deviation");  // it was given, and its violation says more
-    EXPECT_FALSE(has(report(made, false), "beyond"));
-}
-
 TEST(ReportTest, TellsWhereThereAreNoCreasesToCompare) {
     Comparison comparison;
     comparison.creases.source_creases = 1;

@@ -92,6 +92,16 @@ INSTANTIATE_TEST_SUITE_P(Own, ControlRealMesh, testing::ValuesIn(test::own_close
 INSTANTIATE_TEST_SUITE_P(Shared, ControlRealMesh, testing::ValuesIn(test::shared_closed_meshes(false)), param_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(ControlRealMesh);
 
+TEST(ControlTest, ADefaultDeviationHoldsWhereTheFirstAttemptGoesBeyondIt) {
+    const auto read = read_mesh_file(test::data_file("crankshaft.stl"), {});
+    ASSERT_TRUE(read) << read.error().message;
+    const MethodResult result = controlled(read->mesh, {});
+    const auto& used = std::get<ControlOptions>(result.options);
+    EXPECT_EQ(*used.max_deviation, 2 * *used.tolerance) << "it has not given way";
+    EXPECT_LE(*result.quality.deviation_max, *used.max_deviation);
+    EXPECT_LE(*result.quality.crease_deviation_max, *used.max_deviation);
+}
+
 TEST(ControlTest, AllBoundsHoldOnEveryFaceOfAMeshThatMeetsThem) {
     ControlOptions options;
     options.min_stretch = 0.5;

@@ -49,6 +49,24 @@ TEST_F(CreaseGuardTest, KeepsACreaseThatWouldBeGoneOrFarOrShort) {
     EXPECT_TRUE(guard.admits(std::array{crease_number(0, 1)}, half));
 }
 
+TEST_F(CreaseGuardTest, PointsGoBackToTheNearestCreaseIfOneIsWithinTheLimit) {
+    CreaseGuard guard = this->guard(0.1);
+    const HalfEdge left = crease_number(0, 1), right = crease_number(1, 3);
+    // All are handed on to the right one, though those of the left half are nearer to the left one.
+    ASSERT_TRUE(guard.admits(all(), std::array{CreaseGuard::NewCrease{right, Vec3(0, 0, 0), Vec3(2, 0, 0)}}));
+    guard.commit(all());
+    ASSERT_FALSE(guard.holds_points(left));
+    guard.go_to_nearest({{left, Vec3(0, 0, 0), Vec3(1, 0, 0)}, {right, Vec3(1, 0, 0), Vec3(2, 0, 0)}});
+    EXPECT_TRUE(guard.holds_points(left));
+    EXPECT_TRUE(guard.holds_points(right));
+    const std::array half{CreaseGuard::NewCrease{7, Vec3(0, 0, 0), Vec3(1, 0, 0)}};
+    EXPECT_TRUE(guard.admits(std::array{left}, half));
+    EXPECT_FALSE(guard.admits(std::array{right}, half));
+    // None is within the limit: they stay.
+    guard.go_to_nearest({{left, Vec3(0, 0.2, 0), Vec3(2, 0.2, 0)}});
+    EXPECT_TRUE(guard.holds_points(right));
+}
+
 TEST_F(CreaseGuardTest, PointsFollowTheCreaseTheyWentOverTo) {
     CreaseGuard guard = this->guard(0.1);
     const HalfEdge kept = crease_number(1, 3);

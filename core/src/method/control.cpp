@@ -120,7 +120,9 @@ Expected<MethodResult> control_with(const TriangleMesh& mesh, const ControlOptio
     if (!tried) return tried.error();
     MethodResult result = *std::move(tried);
     carry_regions(mesh, options.regions, result.mrr);
-    result.options = used;
+    ControlOptions kept = used;
+    kept.max_deviation = deviation_kept(result, used, options.max_deviation.has_value());
+    result.options = kept;
     const TriangleMesh shown = mesh_at(result.mrr, result.mrr.level_for(result.faces));
     result.violations = find_violations(shown, used);
     explain(result, shown, used);

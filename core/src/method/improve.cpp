@@ -219,6 +219,7 @@ Expected<MethodResult> improve_once(const Ground& ground, const MethodLimits& li
     report_deviation(result, options.max_deviation);
     report_floor(result, options.min_mean_stretch);
     if (!options.faces) used.faces = result.faces;
+    used.max_deviation = deviation_kept(result, used, options.max_deviation.has_value());
     result.options = used;
     return result;
 }

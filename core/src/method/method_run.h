@@ -11,7 +11,7 @@ struct MethodRun {
     PrepareOptions prepare;
     bool extended = false;
     double max_deviation = 0;       ///< as used; extended mode only
-    std::optional<double> limit{};  ///< max_deviation where it was given: to be kept for certain
+    std::optional<double> limit{};  ///< max_deviation where it was given: kept at the price of faces
 };
 
 }  // namespace vsplit

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -84,6 +85,18 @@ struct Reference {
 /// \return CANCELLED.
 [[nodiscard]] Status measure(MethodResult& result, const Reference& reference, const SurfaceIndex* reference_index,
                              std::optional<double> limit, bool may_refine, const ExecutionContext& context);
+
+/// How far surface and creases were measured to be away, 0 where they were not.
+[[nodiscard]] inline double furthest(const MethodResult& result) {
+    return std::max(result.quality.deviation_max.value_or(0), result.quality.crease_deviation_max.value_or(0));
+}
+
+/// The max_deviation that holds: as used, or what was measured where that is more and none was given.
+template <class Options>
+[[nodiscard]] std::optional<double> deviation_kept(const MethodResult& result, const Options& used, bool given) {
+    if (given || !used.max_deviation) return used.max_deviation;
+    return std::max(*used.max_deviation, furthest(result));
+}
 
 /// A violation where the shown resolution was measured to be further than `limit` from the source.
 void report_deviation(MethodResult& result, std::optional<double> limit);

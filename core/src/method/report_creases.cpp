@@ -6,13 +6,7 @@
 #include "vsplit/mrr/progressive_mesh.h"
 
 namespace vsplit {
-namespace {
-
-/// Of feature_angle: the method goes on keeping a crease that it has flattened, down to nothing. Edges that bend by less than
-/// this are within the noise of what lies beside one.
-constexpr double kHeldBendShare = 0.05;
-
-}  // namespace
+namespace {}  // namespace
 
 Status report_creases(MethodResult& result, const TriangleMesh& source, const SurfaceIndex* surface, const MethodRun& run,
                       const ExecutionContext& context) {
@@ -28,8 +22,7 @@ Status report_creases(MethodResult& result, const TriangleMesh& source, const Su
     }
     if (result.quality.faces_below_02 == 0) return Done{};
     const double distance = run.extended ? run.max_deviation : run.prepare.tolerance;
-    const double held = kHeldBendShare * run.prepare.features.angle;
-    const std::vector<SharpEdge> kept = creases_kept(mesh, source, creases, held, distance);
+    const std::vector<SharpEdge> kept = creases_kept(mesh, source, creases, angle, distance);
     const SliverOptions options{.edge = 0, .max_deviation = run.max_deviation, .crease_angle = run.prepare.features.angle};
     result.slivers = surface == nullptr ? explain_slivers(mesh, kept, options)
                                         : explain_slivers(mesh, kept, options, SliverSource{*surface, source, creases});

@@ -33,24 +33,23 @@ template <class Policy, class Faces>
     return result;
 }
 
-/// Whether surface and creases are within the limit, where there is one.
-[[nodiscard]] inline bool keeps_limit(const MethodResult& result, const std::optional<double>& limit) {
-    return !limit ||
-           std::max(result.quality.deviation_max.value_or(0), result.quality.crease_deviation_max.value_or(0)) <= *limit;
+/// Whether surface and creases are within max_deviation.
+[[nodiscard]] inline bool keeps_deviation(const MethodResult& result, const MethodRun& run) {
+    return furthest(result) <= run.max_deviation;
 }
 
 /// Simplifies, shows the resolution that `faces_of(mrr)` names, and measures. What lies between samples may be further away than
-/// they: where a limit is given and not kept at that resolution, it is tried again with less, and the last time finer resolutions
-/// count too.
+/// they: where max_deviation is not kept at that resolution, it is tried again with less. If it was given it is so once more, and
+/// the last time finer resolutions count too; a default gives way then (see `deviation_kept`).
 template <class Policy, class Faces>
 [[nodiscard]] Expected<MethodResult> run_policy(const TriangleMesh& source, SubdividedMesh dense, const MethodRun& run,
                                                 const Policy& policy, Faces faces_of, const ExecutionContext& context) {
     constexpr double kFirstShare = 0.75;
-    constexpr double kLastShare = 0.15;
+    const double last_share = kFirstShare / (run.limit ? 4 : 2);
     double share = kFirstShare;
-    for (; run.limit && share / 2 >= kLastShare; share /= 2) {
+    for (; run.extended && share > last_share; share /= 2) {
         Expected<MethodResult> result = attempt_policy(source, dense, run, share, false, policy, faces_of, context);
-        if (!result || keeps_limit(*result, run.limit)) return result;
+        if (!result || keeps_deviation(*result, run)) return result;
     }
     return attempt_policy(source, std::move(dense), run, share, true, policy, faces_of, context);
 }

@@ -20,15 +20,14 @@ constexpr std::size_t kMostFaces = 64;      // around a vertex that may go, as f
 
 class Mender {
 public:
-    Mender(const MendedMesh& mended, double stretch)
+    explicit Mender(const MendedMesh& mended)
         : mesh_(mended.mesh),
           marks_(mended.marks),
           normals_(mended.normals),
           source_(mended.source),
           creases_(mended.creases),
           crease_cosine_(std::cos(mended.crease_angle * std::numbers::pi / 180)),
-          least_bend_(std::cos(kCreaseBendShare * mended.crease_angle * std::numbers::pi / 180)),
-          least_stretch_(std::max(kStretchFloor, stretch + kLeastGain)) {}
+          least_bend_(std::cos(kCreaseBendShare * mended.crease_angle * std::numbers::pi / 180)) {}
 
     [[nodiscard]] std::optional<double> flip(HalfEdge h) const {
         const HalfEdge g = marks_.twin(h);
@@ -37,12 +36,14 @@ public:
         if (joined(prev(h), origin(mesh_, prev(g)))) return std::nullopt;
         const TriangleShape left{{d, c, a}}, right{{c, d, b}};
         for (const HalfEdge old : {h, g}) {
-            if (!mends(left, face_of(old), kLeastFlipCosine) || !mends(right, face_of(old), kLeastFlipCosine))
+            if (is_fold(left, face_of(old), kLeastFlipCosine) || is_fold(right, face_of(old), kLeastFlipCosine))
                 return std::nullopt;
         }
+        if (!has_fewer_slivers({left, right}, {{{a, b, c}}, {{b, a, d}}})) return std::nullopt;
         if (!keeps_bend(prev(h), left) || !keeps_bend(next(g), left) || !keeps_bend(prev(g), right) ||
             !keeps_bend(next(h), right))
             return std::nullopt;
+        if (creases_ != nullptr && !source_keeps_creases_in_flip(h, left, right)) return std::nullopt;
         const Vec3 across = (b - a).cross(d - c);
         const double length = across.norm();
         return std::max(length > 0 ? std::abs(across.dot(c - a)) / length : (c - a).norm(), from_source({left, right}));
@@ -59,9 +60,10 @@ public:
             before.push_back({{at(corner), at(next(corner)), at(prev(corner))}});
             if (corner == h || face_of(corner) == face_of(marks_.twin(h))) continue;  // the two that vanish
             after.push_back({{kept, at(next(corner)), at(prev(corner))}});
-            if (!mends(after.back(), face_of(corner), kLeastNormalCosine)) return std::nullopt;
+            if (is_fold(after.back(), face_of(corner), kLeastNormalCosine)) return std::nullopt;
             if (!keeps_bend(next(corner), after.back())) return std::nullopt;
         }
+        if (!has_fewer_slivers(after, before)) return std::nullopt;
         if (creases_ != nullptr && !source_keeps_creases(corners, h)) return std::nullopt;
         return std::max(distance_between(at(h), before, after), from_source(after));
     }
@@ -69,11 +71,18 @@ public:
 private:
     [[nodiscard]] const Vec3& at(HalfEdge h) const { return mesh_.positions[origin(mesh_, h)]; }
 
-    /// Whether a face that replaces another is no fold, and no sliver.
-    [[nodiscard]] bool mends(const TriangleShape& face, std::uint32_t old, double least_cosine) const {
-        const auto& [a, b, c] = face.corners;
+    [[nodiscard]] bool is_fold(const TriangleShape& face, std::uint32_t old, double least_cosine) const {
         const Vec3 normal = normal_of(face);
-        return normal.dot(normals_.normals[old]) > least_cosine * normal.norm() && stretch(a, b, c) >= least_stretch_;
+        return !(normal.dot(normals_.normals[old]) > least_cosine * normal.norm());
+    }
+
+    [[nodiscard]] static bool is_sliver(const TriangleShape& face) {
+        return stretch(face.corners[0], face.corners[1], face.corners[2]) < kStretchFloor;
+    }
+
+    [[nodiscard]] static bool has_fewer_slivers(const std::vector<TriangleShape>& after,
+                                                const std::vector<TriangleShape>& before) {
+        return std::count_if(after.begin(), after.end(), is_sliver) < std::count_if(before.begin(), before.end(), is_sliver);
     }
 
     /// Whether the edge of `side`, if it is a crease, bends enough with `face` on this side of it.
@@ -86,28 +95,69 @@ private:
         return normal.dot(beyond) < crease_cosine_ * normal.norm();
     }
 
-    /// Whether creases that go with the origin of h leave others where the source has some.
+    /// Whether creases that go with the origin of h, or bend no longer, leave others where the source has some.
     [[nodiscard]] bool source_keeps_creases(const std::vector<HalfEdge>& corners, HalfEdge h) const {
+        const HalfEdge g = marks_.twin(h);
         std::vector<HalfEdge> before;
         std::vector<SegmentShape> after;
+        const auto take = [&](HalfEdge edge) {
+            if (creases_->is_crease(edge)) before.push_back(edge);
+        };
         for (const HalfEdge corner : corners) {
-            if (creases_->is_crease(next(corner))) after.push_back({{at(next(corner)), at(prev(corner))}});
-            if (creases_->is_crease(corner)) before.push_back(corner);
-            if (corner != h && still_bends(corner, h)) after.push_back({{at(next(h)), at(next(corner))}});
+            const HalfEdge side = next(corner);
+            take(corner);
+            take(side);
+            if (corner != h && still_bends(corner, h)) after.push_back({{at(next(h)), at(side)}});
+            const bool vanishes = face_of(corner) == face_of(h) || face_of(corner) == face_of(g);
+            if (!vanishes && side_still_bends(side, h)) after.push_back({{at(side), at(next(side))}});
         }
+        // At the other end, those that stay as they are.
         for (const HalfEdge corner : corners_around(next(h))) {
-            if (creases_->is_crease(corner) && corner != marks_.twin(h)) after.push_back({{at(corner), at(next(corner))}});
+            const bool changes = corner == g || corner == next(h) || corner == marks_.twin(prev(g));
+            if (creases_->is_crease(corner) && !changes) after.push_back({{at(corner), at(next(corner))}});
         }
         return creases_->may_become(before, after);
     }
 
+    /// Whether a side of the fan around the origin of h is a crease when that has gone to the target of h.
+    [[nodiscard]] bool side_still_bends(HalfEdge side, HalfEdge h) const {
+        const HalfEdge beyond = marks_.twin(side);
+        return beyond == kNone || is_flat_crease(side) || bends(normal_after(side, h), normals_.normals[face_of(beyond)]);
+    }
+
+    /// Whether it is one that no bend tells.
+    [[nodiscard]] bool is_flat_crease(HalfEdge edge) const {
+        return marks_.marked(edge) &&
+               normals_.normals[face_of(edge)].dot(normals_.normals[face_of(marks_.twin(edge))]) >= least_bend_;
+    }
+
+    /// The same of an edge that turns into the faces `left`, in place of that of h, and `right`.
+    [[nodiscard]] bool source_keeps_creases_in_flip(HalfEdge h, const TriangleShape& left, const TriangleShape& right) const {
+        const HalfEdge g = marks_.twin(h);
+        std::vector<HalfEdge> before;
+        std::vector<SegmentShape> after;
+        if (creases_->is_crease(h)) before.push_back(h);
+        const Vec3 of_left = normal_of(left), of_right = normal_of(right);
+        if (bends(of_left, of_right)) after.push_back({{at(prev(h)), at(prev(g))}});
+        for (const HalfEdge side : {prev(h), next(g), prev(g), next(h)}) {
+            if (creases_->is_crease(side)) before.push_back(side);
+            const HalfEdge beyond = marks_.twin(side);
+            const bool is_left = side == prev(h) || side == next(g);
+            if (beyond == kNone || bends(is_left ? of_left : of_right, normals_.normals[face_of(beyond)]))
+                after.push_back({{at(side), at(next(side))}});
+        }
+        return creases_->may_become(before, after);
+    }
+
+    [[nodiscard]] bool bends(const Vec3& one, const Vec3& other) const {
+        return one.dot(other) < least_bend_ * one.norm() * other.norm();
+    }
+
     /// Whether the edge of `corner` is a crease when its origin has gone to the target of h.
     [[nodiscard]] bool still_bends(HalfEdge corner, HalfEdge h) const {
-        if (marks_.marked(corner) &&
-            normals_.normals[face_of(corner)].dot(normals_.normals[face_of(marks_.twin(corner))]) >= least_bend_)
-            return true;
+        if (is_flat_crease(corner)) return true;
         const Vec3 one = normal_after(corner, h), other = normal_after(marks_.twin(corner), h);
-        return one.dot(other) < least_bend_ * one.norm() * other.norm();
+        return bends(one, other);
     }
 
     /// Of the face of `side`, an edge at the origin of h, when that has gone to the target of h; of the face beyond where that
@@ -200,14 +250,13 @@ private:
     const SurfaceIndex* source_;
     const HeldCreases* creases_;
     double crease_cosine_;
-    double least_bend_;     // of what counts as a crease, a cosine
-    double least_stretch_;  // of what mends
+    double least_bend_;  // of what counts as a crease, a cosine
 };
 
 }  // namespace
 
 std::optional<double> least_mend(const MendedMesh& mended, const SliverFace& face) {
-    const Mender mender(mended, face.stretch);
+    const Mender mender(mended);
     std::optional<double> least;
     const auto take = [&](const std::optional<double>& moved) {
         if (moved && (!least || *moved < *least)) least = moved;

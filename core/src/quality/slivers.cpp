@@ -15,6 +15,9 @@
 namespace vsplit {
 namespace {
 
+/// Of max_deviation: points along a crease that are so near have all between them within it.
+constexpr double kCertainShare = 0.75;
+
 constexpr std::array kCauses{SliverCause::kNarrowStrip, SliverCause::kSharpCorner, SliverCause::kCloseCorners,
                              SliverCause::kNarrowPart,  SliverCause::kDeviation,   SliverCause::kHeldByCreases,
                              SliverCause::kUnexplained};
@@ -144,7 +147,7 @@ std::vector<Slivers> explain(const TriangleMesh& mesh, const std::vector<SharpEd
     if (source != nullptr && options.max_deviation > 0) {
         bends.mark(find_sharp_edges(mesh, normals, {.angle = kCreaseBendShare * options.crease_angle, .weight = 1}));
         mended.source = &source->surface;
-        mended.creases = &held.emplace(mesh, bends, source->mesh, source->creases, options.max_deviation);
+        mended.creases = &held.emplace(mesh, bends, source->mesh, source->creases, kCertainShare * options.max_deviation);
     }
     constexpr double kAnyBend = 180;
     const MendedMesh creaseless{mesh, none, normals, kAnyBend, mended.source};

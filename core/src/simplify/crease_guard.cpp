@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "spatial/surface_index.h"
 
 namespace vsplit {
 namespace {
@@ -61,6 +64,26 @@ bool CreaseGuard::admits(std::span<const HalfEdge> old_edges, std::span<const Ne
         }
     }
     return true;
+}
+
+void CreaseGuard::go_to_nearest(const std::vector<NewCrease>& creases) {
+    std::vector<Vec3> ends;
+    std::vector<EdgeEnds> edges;
+    for (const NewCrease& crease : creases) {
+        const auto first = static_cast<std::uint32_t>(ends.size());
+        ends.push_back(crease.a);
+        ends.push_back(crease.b);
+        edges.push_back({first, first + 1});
+    }
+    const CreaseIndex index = crease_index(ends, edges);
+    places_.clear();
+    for (HalfEdge edge = 0; edge < first_.size(); ++edge) {
+        for (std::uint32_t point = std::exchange(first_[edge], kNone); point != kNone; point = next_[point]) {
+            const CreaseIndex::Hit hit = index.closest(points_[point], limit_ * limit_);
+            places_.push_back({point, hit.element == CreaseIndex::kNoElement ? edge : creases[hit.element].edge});
+        }
+    }
+    for (const Place& at : places_) put(at);
 }
 
 void CreaseGuard::commit(std::span<const HalfEdge> old_edges) {

@@ -32,6 +32,12 @@ public:
     /// Has the points go over as the last `admits` found, which was of `old_edges`. \pre it said yes.
     void commit(std::span<const HalfEdge> old_edges);
 
+    /// Has each point go over to the nearest of `creases` that is within the limit; one that has none near stays where it is.
+    /// What a point was handed on to need not be what is nearest to it now. O((creases + points) log creases).
+    void go_to_nearest(const std::vector<NewCrease>& creases);
+
+    [[nodiscard]] bool holds_points(HalfEdge edge) const { return first_[edge] != kNone; }
+
 private:
     struct Place {
         std::uint32_t point = 0;

@@ -1,6 +1,7 @@
 #include "simplify/crease_replacement.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace vsplit {
 namespace {
@@ -20,6 +21,7 @@ float dot_at_spoke(const Fan& fan, std::size_t t) {
 void CreaseReplacement::start() {
     old_.clear();
     new_.clear();
+    unmarked_.clear();
     makes_blade_ = false;
 }
 
@@ -37,16 +39,23 @@ void CreaseReplacement::offer(HalfEdge edge, bool kept_flat, Dots dots, const Ve
     if (kept_flat || dots.after < cosine_) new_.push_back({edge, a, b});
 }
 
+void CreaseReplacement::offer_unmarked(HalfEdge edge, float dot, const Vec3& a, const Vec3& b) {
+    if (!may_flatten_ || !(dot < cosine_)) return;
+    new_.push_back({edge, a, b});
+    unmarked_.push_back(edge);
+}
+
 /// Spoke h, or its twin, to ring vertex t.
 void CreaseReplacement::add_spoke(HalfEdge h, const Fan& fan, std::size_t t, const Vec3& apex) {
-    if (!mesh_.is_crease(h)) return;
+    if (!mesh_.is_crease(h)) return offer_unmarked(mesh_.edge_of(h), dot_at_spoke(fan, t), apex, fan.ring(t));
     take(h);
     offer(mesh_.edge_of(h), mesh_.is_kept_flat(h), {dot_at(h), dot_at_spoke(fan, t)}, apex, fan.ring(t));
 }
 
 /// The spoke to ring vertex t that two edges, those of `one` and `other`, become one of.
 void CreaseReplacement::add_wing(HalfEdge one, HalfEdge other, const Fan& fan, std::size_t t, const Vec3& apex) {
-    if (!mesh_.is_crease(one) && !mesh_.is_crease(other)) return;
+    if (!mesh_.is_crease(one) && !mesh_.is_crease(other))
+        return offer_unmarked(std::min(one, other), dot_at_spoke(fan, t), apex, fan.ring(t));
     take(one);
     take(other);
     const bool kept_flat = mesh_.is_kept_flat(one) || mesh_.is_kept_flat(other);
@@ -54,7 +63,10 @@ void CreaseReplacement::add_wing(HalfEdge one, HalfEdge other, const Fan& fan, s
 }
 
 void CreaseReplacement::add_side(HalfEdge side, const Fan& fan, std::size_t t) {
-    if (!mesh_.is_crease(side)) return;
+    if (!mesh_.is_crease(side)) {
+        return offer_unmarked(mesh_.edge_of(side), fan.normal(t).dot(state_.faces[face_of(mesh_.twin(side))].normal), fan.ring(t),
+                              fan.ring(t + 1));
+    }
     take(side);
     const float after = fan.normal(t).dot(state_.faces[face_of(mesh_.twin(side))].normal);
     offer(mesh_.edge_of(side), mesh_.is_kept_flat(side), {dot_at(side), after}, fan.ring(t), fan.ring(t + 1));
@@ -79,7 +91,11 @@ bool CreaseReplacement::try_fan(const Fan& fan, AddSpoke add) {
 }
 
 void CreaseReplacement::commit() {
-    if (!old_.empty()) guard_->commit(old_);
+    new_marks_.clear();
+    if (old_.empty()) return;
+    guard_->commit(old_);
+    std::copy_if(unmarked_.begin(), unmarked_.end(), std::back_inserter(new_marks_),
+                 [this](HalfEdge edge) { return guard_->holds_points(edge); });
 }
 
 bool CreaseReplacement::try_collapse(const EdgeStar& star, const Fan& fan, const Vec3& apex) {

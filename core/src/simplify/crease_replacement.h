@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "simplify/crease_guard.h"
@@ -15,7 +16,14 @@ class CreaseReplacement {
 public:
     /// `cosine`: of the angle.
     CreaseReplacement(const HalfEdgeMesh& mesh, const LocalState& state, CreaseGuard* guard, double cosine)
-        : mesh_(mesh), state_(state), guard_(guard), cosine_(static_cast<float>(cosine)) {}
+        : mesh_(mesh), state_(state), guard_(guard), angle_cosine_(cosine), cosine_(static_cast<float>(cosine)) {}
+
+    /// From now on creases count while the normals differ by more than half of the angle: what a result is judged by. Or again by
+    /// the whole, so that there is room for the steps that follow.
+    void let_flatten(bool to_half) {
+        may_flatten_ = to_half;
+        cosine_ = static_cast<float>(to_half ? std::sqrt((1 + angle_cosine_) / 2) : angle_cosine_);
+    }
 
     /// Whether the guard lets the edge of `star` collapse. \pre `fan` is that of the collapse, shaped for `apex`.
     [[nodiscard]] bool try_collapse(const EdgeStar& star, const Fan& fan, const Vec3& apex);
@@ -29,6 +37,9 @@ public:
     /// What the last try found holds from now on. \pre it said yes.
     void commit();
 
+    /// The edges that were no creases and took points at the last commit, as they may where creases may go flat.
+    [[nodiscard]] const std::vector<HalfEdge>& new_creases() const { return new_marks_; }
+
 private:
     /// Of the normals on either side of an edge.
     struct Dots {
@@ -39,6 +50,7 @@ private:
     void start();
     void take(HalfEdge h);
     [[nodiscard]] float dot_at(HalfEdge h) const;
+    void offer_unmarked(HalfEdge edge, float dot, const Vec3& a, const Vec3& b);
     void offer(HalfEdge edge, bool kept_flat, Dots dots, const Vec3& a, const Vec3& b);
     void add_spoke(HalfEdge h, const Fan& fan, std::size_t t, const Vec3& apex);
     void add_wing(HalfEdge one, HalfEdge other, const Fan& fan, std::size_t t, const Vec3& apex);
@@ -51,9 +63,12 @@ private:
     const HalfEdgeMesh& mesh_;
     const LocalState& state_;
     CreaseGuard* const guard_;
-    const float cosine_;
+    const double angle_cosine_;
+    bool may_flatten_ = false;
+    float cosine_;  // of the angle that counts
     std::vector<HalfEdge> old_;
     std::vector<CreaseGuard::NewCrease> new_;
+    std::vector<HalfEdge> unmarked_, new_marks_;
     bool makes_blade_ = false;
 };
 

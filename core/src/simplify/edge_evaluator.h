@@ -49,6 +49,17 @@ public:
         return ranked.verdict == Evaluation::Verdict::kValid && mesh_.pinches(h) ? Evaluation{} : ranked;
     }
 
+    /// The same of a collapse that leaves fewer slivers around than there are; `at` that place, where creases and boundaries
+    /// leave a choice.
+    [[nodiscard]] Evaluation evaluate_mend(HalfEdge h, const std::optional<Vec3>& at) {
+        place_to_mend_ = at;
+        mends_ = true;
+        Evaluation found = evaluate(h);
+        mends_ = false;
+        place_to_mend_.reset();
+        return found;
+    }
+
     /// The same but that an edge may be called valid whose collapse would pinch the surface. Such edges are few, and which they
     /// are is told soon enough when one is the next to go. O(valence).
     [[nodiscard]] Evaluation rank(HalfEdge h) {
@@ -74,6 +85,7 @@ public:
             if (is_corner(creases_[0])) return attempt(quadric, mesh_.position(i) - centre_) ? valid_ : Evaluation{};
             if (is_corner(creases_[1])) return attempt(quadric, mesh_.position(j) - centre_) ? valid_ : Evaluation{};
         }
+        if (place_to_mend_) return attempt(quadric, *place_to_mend_ - centre_, *place_to_mend_) ? valid_ : Evaluation{};
         const Vec3 centroid = ring_sum_ / static_cast<double>(fan_.ring_size()) - centre_;
         if (attempt(quadric, centroid)) return valid_;
         if (attempt(quadric, project_to_minimum(quadric, centroid))) return valid_;
@@ -120,8 +132,15 @@ private:
         if (shape.folds || !policy_.admits(before_, shape)) return false;
         if (state_.sizes.binding() && !sizes_admit(position)) return false;
         if (policy_.shaped() && !policy_.admits_excess(before_, fan_.excess(policy_, position))) return false;
+        if (mends_ && slivers_after() >= slivers_before_) return false;
         valid_ = {Evaluation::Verdict::kValid, evenness_ * policy_.factor(before_) * shape_quality(shape, fan_.size()), position};
         return true;
+    }
+
+    [[nodiscard]] std::size_t slivers_after() const {
+        std::size_t count = 0;
+        for (std::size_t t = 0; t < fan_.size(); ++t) count += fan_.stretch(t) < kStretchFloor ? 1 : 0;
+        return count;
     }
 
     /// Whether no spoke would be longer than its ends allow.
@@ -149,6 +168,18 @@ private:
         }
         ghost_ == kNone ? fan_.close(all) : open_fan(h, all);
         if (policy_.shaped()) before_.excess = excess_before(h);
+        if (mends_) slivers_before_ = slivers_before(h);
+    }
+
+    /// Of the faces in the fan and of those that vanish.
+    [[nodiscard]] std::size_t slivers_before(HalfEdge h) const {
+        std::size_t count = 0;
+        const auto add = [&](std::uint32_t face) { count += state_.faces[face].stretch < kStretchFloor ? 1 : 0; };
+        for (std::size_t t = 0; t < fan_.size(); ++t) add(fan_.face(t));
+        for (const HalfEdge side : {h, mesh_.twin(h)}) {
+            if (mesh_.origin(prev(side)) != ghost_) add(face_of(side));
+        }
+        return count;
     }
 
     /// Takes the ghost and its faces out of what gather() found.
@@ -260,6 +291,9 @@ private:
     std::array<std::uint32_t, 2> ends_{};
     double error_limit_ = 0;  // of the edge at hand
     double evenness_ = 1;
+    bool mends_ = false;  // only collapses that leave fewer slivers
+    std::optional<Vec3> place_to_mend_;
+    std::size_t slivers_before_ = 0;
     std::uint32_t ghost_ = kNone;   // of the boundary that an end of the edge lies on
     std::array<int, 2> creases_{};  // edges at either end that are creases; extended mode only
 };

@@ -5,8 +5,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cstdio>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/release.h"
@@ -16,6 +19,7 @@
 #include "simplify/fan_replacement.h"
 #include "simplify/half_edge_mesh.h"
 #include "simplify/polish.h"
+#include "simplify/settle_creases.h"
 
 namespace vsplit {
 namespace {
@@ -110,6 +114,53 @@ private:
     void polish_asked() {
         polisher_.polish(kFinalRelaxations, VertexMover::Moves::kAll, kFinalLifts, context_);
         polisher_.mend(kFinalMends, true, context_);
+        collapse_slivers();
+    }
+
+    [[nodiscard]] bool is_sliver(std::uint32_t face) const {
+        return mesh_.visible(face) && state_.faces[face].stretch < kStretchFloor;
+    }
+
+    /// Collapses edges of slivers where that leaves fewer of them, the shortest first, down to the faces asked for. Creases may
+    /// go flatter than on the way: these steps are the last.
+    void collapse_slivers() {
+        slivers_ = 0;
+        if (!has_collapses_above(input_.faces)) return;
+        for (std::uint32_t face = 0; 3 * face < mesh_.half_edge_count(); ++face) slivers_ += is_sliver(face) ? 1 : 0;
+        if (slivers_ == 0) return;
+        queue_.clear();
+        if (crease_guard_) settle_creases(mesh_, state_, *crease_guard_, input_.crease_cosine);
+        creases_.let_flatten(true);
+        for (std::uint32_t face = 0; 3 * face < mesh_.half_edge_count() && !context_.cancelled(); ++face) {
+            if (is_sliver(face)) collapse_sliver(face);
+        }
+        creases_.let_flatten(false);
+    }
+
+    void collapse_sliver(std::uint32_t face) {
+        std::array<HalfEdge, 3> sides{3 * face, 3 * face + 1, 3 * face + 2};
+        const auto square = [this](HalfEdge h) {
+            return (mesh_.position(mesh_.target(h)) - mesh_.position(mesh_.origin(h))).squaredNorm();
+        };
+        std::sort(sides.begin(), sides.end(),
+                  [&](HalfEdge l, HalfEdge r) { return std::pair(square(l), l) < std::pair(square(r), r); });
+        for (const HalfEdge side : sides) {
+            if (!has_collapses_above(input_.faces) || collapse_to_mend(side)) return;
+        }
+    }
+
+    /// To the place that collapses have else, or to either end or the middle where the guards refuse that.
+    bool collapse_to_mend(HalfEdge edge) {
+        const EdgeStar star = mesh_.star(edge);
+        const Vec3 a = mesh_.position(mesh_.origin(edge)), b = mesh_.position(mesh_.target(edge));
+        for (const std::optional<Vec3>& at :
+             {std::optional<Vec3>(), std::optional(a), std::optional(b), std::optional<Vec3>((a + b) / 2)}) {
+            const Evaluation evaluation = evaluator_.evaluate_mend(edge, at);
+            if (evaluation.verdict != Evaluation::Verdict::kValid || !guards_admit(star, evaluation.position)) continue;
+            make_collapse(star, evaluation.position);
+            return true;
+        }
+        return false;
     }
 
     /// On the way there and beyond. Vertices of too many edges are seldom mended later: faces around them have no room.
@@ -213,14 +264,17 @@ private:
 
     /// A fifth of the faces fewer, or more while far from what is asked for; and the resolution asked for in any case, after one
     /// near it.
-    [[nodiscard]] std::uint32_t next_checkpoint(std::uint32_t faces) const {
+    [[nodiscard]] std::uint32_t next_checkpoint(std::uint32_t faces) {
         const bool may_end_here = input_.mean_floor > 0 && faces <= input_.floor_from;
         const double share = faces / kFar > input_.faces && !may_end_here ? kFarCheckpointShare : kCheckpointShare;
         const auto goal = static_cast<std::uint32_t>(share * faces);
         const bool passes_asked = has_collapses_above(input_.faces) && goal < 1.1 * input_.faces;
         if (!passes_asked) return std::max(goal, input_.faces_min);
         const auto near = static_cast<std::uint32_t>(kNearShare * input_.faces);
-        return std::max(has_collapses_above(near) ? near : input_.faces, input_.faces_min);
+        if (has_collapses_above(near)) return std::max(near, input_.faces_min);
+        // Slivers that can go then leave as many faces as were asked for.
+        const std::uint32_t room = std::exchange(made_room_, true) ? input_.faces : input_.faces + 2 * slivers_;
+        return std::max(has_collapses_above(room) ? room : input_.faces, input_.faces_min);
     }
 
     [[nodiscard]] Status collapse_in_phases(std::uint32_t faces) {
@@ -304,20 +358,31 @@ private:
             ++refusals_[edge];
             return drop(edge);  // until its neighbourhood changes
         }
+        make_collapse(star, evaluation.position);
+    }
+
+    /// \pre the evaluator's fan is that of the collapse, and the guards let it pass.
+    void make_collapse(const EdgeStar& star, const Vec3& position) {
         for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
-        log_.record(mesh_, star, evaluation.position);
+        log_.record(mesh_, star, position);
         if constexpr (!Policy::kExtended) stretch_sum_ -= visible_stretch(face_of(star.ij)) + visible_stretch(face_of(star.ji));
         const std::uint32_t kept = mesh_.origin(star.ij), removed = mesh_.origin(star.ji);
         state_.quadrics[kept] += state_.quadrics[removed];
         state_.border.join(kept, removed);
-        if (state_.sizes.given()) state_.sizes.put(kept, state_.sizes.between(mesh_, kept, removed, evaluation.position));
-        mesh_.collapse(star, evaluation.position);
+        if (state_.sizes.given()) state_.sizes.put(kept, state_.sizes.between(mesh_, kept, removed, position));
+        mesh_.collapse(star, position);
         creases_.commit();
+        if constexpr (Policy::kExtended) mark_new_creases();
         update_faces(kept);
         const std::uint32_t before = mesh_.clock();
         mesh_.touch_around(kept);
         if constexpr (Policy::kExtended) flip_around(kept);
         requeue_around(kept, before);
+    }
+
+    /// Those that a crease which went has left its points to.
+    void mark_new_creases() {
+        for (const HalfEdge edge : creases_.new_creases()) mesh_.mark_crease(edge);
     }
 
     /// Flips give edges other numbers: those of the faces that changed are taken out of the queue before they come in anew.
@@ -390,6 +455,8 @@ private:
     std::vector<HalfEdge> open_;       // edges to evaluate again
     std::uint32_t faces_start_ = 0;
     bool reached_floor_ = false;
+    std::uint32_t slivers_ = 0;  // at the last polish near the faces asked for
+    bool made_room_ = false;
     double stretch_sum_ = 0;  // of visible faces, kept up by the strict mode
     bool evaluated_ = false;  // all edges, once
     EdgeEvaluator<Policy> evaluator_;

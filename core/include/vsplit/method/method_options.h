@@ -30,7 +30,8 @@ struct ImproveOptions {
     std::optional<double> tolerance{};  ///< > 0; sqrt of the paper's tau_TL (tau_TL = 2 is tolerance 1.414). Default 0.1 % of the
                                         ///< diagonal, or half of max_deviation
     /// > 0: no point of the result is further from the source, nor of the source from the result; EXTENDED only. Where it is
-    /// given it is certain, at the price of more faces than asked for if need be. Default: twice the tolerance, kept at samples.
+    /// given it is kept at the price of more faces than asked for if need be. Default: twice the tolerance; where the result was
+    /// measured to be further away twice, the options as used say how far.
     std::optional<double> max_deviation{};
     std::optional<double> feature_angle{};     ///< degrees, 0..180; default 40
     std::optional<double> feature_weight{};    ///< w_e at a right angle; >= 0; default 10
