@@ -9,11 +9,8 @@
 #include <string>
 #include <vector>
 
-<<<<<<< HEAD
 #include "base/huge_pages.h"
-=======
 #include "base/quoted.h"
->>>>>>> w8
 #include "mesh/disjoint_sets.h"
 #include "mesh/half_edges.h"
 #include "quality/quality_of_edges.h"
