@@ -96,7 +96,8 @@ std::optional<Cylinder> fit_borders(const TriangleMesh& mesh, const Segments::Se
 
 /// The one that a segment's faces swing around: corners are outside of what is meant and the middles of edges inside. Were
 /// corners left out, it would be as large as the faces in the mean, and smaller than what was meant by what CAD's chords had cut
-/// off already. So much of them is right to 1 % for circles that had 16 to 48 sides.
+/// off already. So much of them is right to 1 % for circles that had 24 to 48 sides and were improved within a fiftieth of
+/// the usual edge or a twentieth.
 std::optional<Cylinder> fit_faces(const TriangleMesh& mesh, const Segments::Segment& segment, const Vec3& direction) {
     Section section(middle_of(mesh, segment.loops.front()), direction);
     for (const std::uint32_t f : segment.faces) {
