@@ -7,6 +7,7 @@
 #include "cli/arguments.h"
 #include "cli/number_text.h"
 #include "cli/outcome.h"
+#include "vsplit/io/write_losses.h"
 #include "wire/features.h"
 #include "wire/utf8.h"
 
@@ -173,6 +174,24 @@ std::string on_chord_note(std::uint32_t edges) {
     if (edges == 0) return "";
     return "vsplit: " + std::to_string(edges) + (edges == 1 ? " side stays" : " sides stay") +
            " straight: curved to the surface they would make bad elements of order 2\n";
+}
+
+std::string losses_note(const TriangleMesh& mesh, MeshFormat format, const std::string& path) {
+    constexpr std::size_t kShown = 10;
+    std::string text;
+    const std::string begin = "vsplit: note: " + printable(path) + ": " + std::string(format_name(format));
+    if (const std::vector<std::string> sets = sets_left_out(mesh, format); !sets.empty()) {
+        text += begin + " has no room for " + counted(sets.size(), "set", "sets") + ": ";
+        for (std::size_t i = 0; i < std::min(sets.size(), kShown); ++i)
+            text.append(i == 0 ? "" : ", ").append(printable(sets[i]));
+        text += sets.size() > kShown ? ", ...\n" : "\n";
+    }
+    if (const Rounding rounding = rounding_of(mesh, format); rounding.is_coarse()) {
+        text += begin + " rounds coordinates to " + figure(rounding.step) + ", and the shortest edge is " +
+                figure(rounding.shortest_edge) +
+                ": faces change shape; other formats keep them, or move the mesh to the origin\n";
+    }
+    return text;
 }
 
 std::string controlled_surface_note(const v1::Representation& made) {

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "vsplit/base/error.h"
+#include "vsplit/io/mesh_format.h"
 #include "vsplit/mesh/length_unit.h"
+#include "vsplit/mesh/triangle_mesh.h"
 #include "vsplit/shapes/remove_features.h"
 #include "vsplit/v1/meshing.pb.h"
 
@@ -44,6 +46,9 @@ namespace vsplit::cli {
 
 /// A line that says how many sides of second-order elements are straight so that none is bad; empty for none.
 [[nodiscard]] std::string on_chord_note(std::uint32_t edges);
+
+/// Lines that say what a file of `format` does not hold of the mesh: sets, and coordinates as fine as its edges.
+[[nodiscard]] std::string losses_note(const TriangleMesh& mesh, MeshFormat format, const std::string& path);
 
 /// A line that says that mid-side nodes of a stored representation lie on what `control` was given; empty for one of `improve`,
 /// whose finest resolution is the source's surface.

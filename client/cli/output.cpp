@@ -79,6 +79,7 @@ Status write_mesh_output(const Outcome& outcome, const Output& output, const Arg
     std::optional<TriangleMesh> converted;
     if (from != to) convert_lengths(converted.emplace(*outcome.mesh).positions, *from, *to);
     const TriangleMesh& mesh = converted ? *converted : *outcome.mesh;
+    std::cerr << losses_note(mesh, *output.format, output.path);
     if (arguments.order != 2) return write_mesh_file(mesh, *output.format, output.path, to);
     Expected<MidsideNodes> nodes = nodes_of(outcome);
     if (!nodes) return nodes.error();

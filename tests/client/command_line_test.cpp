@@ -169,6 +169,27 @@ TEST_F(CommandLineTest, ImproveWritesEveryOutput) {
     }
 }
 
+TEST_F(CommandLineTest, SaysWhatAFileHasNoRoomFor) {
+    TriangleMesh mesh = test::cube_frame();
+    for (Vec3& position : mesh.positions) position.x() += 1e8;
+    mesh.regions.assign(mesh.faces.size(), 1);
+    std::fill(mesh.regions.begin(), mesh.regions.begin() + 8, 2);
+    mesh.sets = {{"skin", {1, 2}}, {"rim", {2}}, {"edge", {2}}};
+    const std::string from = mesh_file("far.msh", mesh);
+    const auto err_of = [&](const char* name) {
+        const CommandResult made = run({"improve", from, "--subdivide", "9", "--faces", "100", "-o", file(name)});
+        EXPECT_EQ(made.exit_status, 0) << made.err;
+        return made.err;
+    };
+    EXPECT_NE(err_of("far.obj").find("far.obj: obj has no room for 2 sets: skin, edge\n"), std::string::npos);
+    const std::string stl = err_of("far.stl");
+    EXPECT_NE(stl.find("has no room for 3 sets: skin, rim, edge\n"), std::string::npos) << stl;
+    EXPECT_NE(stl.find("rounds coordinates to 11.9"), std::string::npos) << stl;
+    const std::string inp = err_of("far.inp");
+    EXPECT_EQ(inp.find("no room"), std::string::npos) << inp;
+    EXPECT_EQ(inp.find("rounds"), std::string::npos) << inp;
+}
+
 TEST_F(CommandLineTest, RunsAreIdentical) {
     const std::string input = mesh_file("frame.off", test::cube_frame());
     for (const char* threads : {"1", "2"}) {

@@ -36,6 +36,47 @@ TEST(InspectTest, KnowsTopologyOfClosedMeshes) {
     expect(test::sliver_cylinder(40, 10), 1, 0);
 }
 
+TEST(InspectTest, AClosedMeshWhoseFacesLookInwardsIsInsideOut) {
+    TriangleMesh mesh = test::cube_frame();
+    EXPECT_EQ(find(inspect(mesh), Finding::Kind::kInsideOut), nullptr);
+    EXPECT_TRUE(require_outward(inspect(mesh)));
+    for (Triangle& face : mesh.faces) std::swap(face[1], face[2]);
+    const MeshReport report = inspect(mesh);
+    const Finding* const finding = find(report, Finding::Kind::kInsideOut);
+    ASSERT_NE(finding, nullptr);
+    EXPECT_EQ(finding->count, mesh.face_count());
+    EXPECT_EQ(finding->places.size(), 1U);
+    EXPECT_TRUE(require_closed_manifold(report));
+    ASSERT_FALSE(require_outward(report));
+    EXPECT_EQ(require_outward(report).error().cause, Cause::kNonManifold);
+    mesh.faces.pop_back();  // what is open has no inside
+    EXPECT_EQ(find(inspect(mesh), Finding::Kind::kInsideOut), nullptr);
+}
+
+TEST(InspectTest, TellsWhatAWeldWithAToleranceCost) {
+    TriangleMesh mesh = test::cube();
+    const Vec3 corner = mesh.positions[mesh.faces[0][0]];
+    mesh.positions.push_back(corner + Vec3(1e-4, 0, 0));
+    mesh.positions.push_back(corner + Vec3(0, 1e-4, 0));
+    mesh.faces.push_back({mesh.faces[0][0], 8, 9});
+    mesh.regions.assign(mesh.faces.size(), 5);
+    mesh.regions.back() = 7;
+    const auto welded = weld(mesh, 1e-3);
+    ASSERT_TRUE(welded);
+    const MeshReport report = inspect(mesh, *welded);
+    const Finding* const merged = find(report, Finding::Kind::kMergedVertex);
+    ASSERT_NE(merged, nullptr);
+    EXPECT_EQ(merged->count, 2U);
+    EXPECT_EQ(merged->places, (std::vector<Vec3>{corner + Vec3(1e-4, 0, 0), corner + Vec3(0, 1e-4, 0)}));
+    const Finding* const collapsed = find(report, Finding::Kind::kCollapsedFace);
+    ASSERT_NE(collapsed, nullptr);
+    EXPECT_EQ(collapsed->places, std::vector<Vec3>{corner});
+    const Finding* const emptied = find(report, Finding::Kind::kEmptiedGroup);
+    ASSERT_NE(emptied, nullptr);
+    EXPECT_NE(emptied->message.find("region 7"), std::string::npos) << emptied->message;
+    EXPECT_EQ(find(inspect(mesh, *weld(mesh, 0)), Finding::Kind::kMergedVertex), nullptr);
+}
+
 TEST(InspectTest, NamesBoundaryEdges) {
     TriangleMesh mesh = test::icosphere(1);
     mesh.faces.erase(mesh.faces.begin() + 5);

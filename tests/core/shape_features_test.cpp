@@ -52,6 +52,15 @@ TEST(ShapeFeaturesTest, FindsFortyHolesOfAPlate) {
     }
 }
 
+TEST(ShapeFeaturesTest, RefusesAMeshThatIsInsideOut) {
+    TriangleMesh mesh = test::cube();
+    for (Triangle& face : mesh.faces) std::swap(face[1], face[2]);
+    const auto found = list_features(mesh, {});
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().cause, Cause::kNonManifold);
+    EXPECT_NE(found.error().message.find("inside out"), std::string::npos) << found.error().message;
+}
+
 TEST(ShapeFeaturesTest, FindsABossAndItsHeight) {
     const TriangleMesh mesh = test::drilled_plate(1, 10, 3, {{4, -2.5, 32}});
     const std::vector<ShapeFeature> all = features_of(mesh);

@@ -13,6 +13,7 @@
 #include "vsplit/io/mesh_format.h"
 #include "vsplit/io/read_mesh.h"
 #include "vsplit/io/second_order.h"
+#include "vsplit/io/write_losses.h"
 #include "vsplit/io/write_mesh.h"
 #include "vsplit/mesh/finding.h"
 #include "vsplit/mesh/inspect.h"

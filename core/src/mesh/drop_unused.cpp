@@ -3,27 +3,49 @@
 #include <algorithm>
 #include <set>
 
+#include "vsplit/mesh/finding.h"
+
 namespace vsplit {
 namespace {
 
 bool is_collapsed(const Triangle& face) { return face[0] == face[1] || face[1] == face[2] || face[2] == face[0]; }
 
-std::uint32_t drop_collapsed_faces(TriangleMesh& mesh) {
-    if (!mesh.regions.empty()) {
-        std::size_t kept = 0;
-        for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-            if (!is_collapsed(mesh.faces[f])) mesh.regions[kept++] = mesh.regions[f];
-        }
-        mesh.regions.resize(kept);
+/// Regions of `faces` that none of `mesh` has and no set names.
+std::vector<std::uint32_t> regions_gone(const std::vector<std::uint32_t>& regions, const TriangleMesh& mesh) {
+    std::set<std::uint32_t> gone(regions.begin(), regions.end());
+    gone.erase(0);  // is no group
+    for (const std::uint32_t region : mesh.regions) gone.erase(region);
+    for (const FaceSet& set : mesh.sets) {
+        for (const std::uint32_t region : set.regions) gone.erase(region);
     }
-    return static_cast<std::uint32_t>(std::erase_if(mesh.faces, is_collapsed));
+    return {gone.begin(), gone.end()};
+}
+
+void drop_collapsed_faces(TriangleMesh& mesh, WeldCounts& counts) {
+    std::vector<std::uint32_t> dropped_regions;
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const Triangle face = mesh.faces[f];
+        if (!is_collapsed(face)) {
+            if (!mesh.regions.empty()) mesh.regions[kept] = mesh.regions[f];
+            mesh.faces[kept++] = face;
+            continue;
+        }
+        if (!mesh.regions.empty()) dropped_regions.push_back(mesh.regions[f]);
+        if (counts.collapsed_faces++ >= Finding::kExamples) continue;
+        counts.collapsed_places.emplace_back((mesh.positions[face[0]] + mesh.positions[face[1]] + mesh.positions[face[2]]) / 3);
+    }
+    mesh.faces.resize(kept);
+    if (dropped_regions.empty()) return;
+    mesh.regions.resize(kept);
+    counts.emptied_regions = regions_gone(dropped_regions, mesh);
 }
 
 }  // namespace
 
 WeldCounts drop_unused(TriangleMesh& mesh) {
     WeldCounts counts;
-    counts.collapsed_faces = drop_collapsed_faces(mesh);
+    drop_collapsed_faces(mesh, counts);
     std::vector<std::uint32_t> number(mesh.positions.size(), 0);
     for (const Triangle& face : mesh.faces) {
         for (const std::uint32_t vertex : face) number[vertex] = 1;

@@ -16,6 +16,8 @@ std::string_view finding_name(Finding::Kind kind) {
             return "DEGENERATE_FACE";
         case Finding::Kind::kDuplicateFace:
             return "DUPLICATE_FACE";
+        case Finding::Kind::kInsideOut:
+            return "INSIDE_OUT";
         case Finding::Kind::kUnusedVertex:
             return "UNUSED_VERTEX";
         case Finding::Kind::kCollapsedFace:

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/huge_pages.h"
-#include "base/quoted.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/half_edges.h"
+#include "mesh/weld_findings.h"
 #include "quality/quality_of_edges.h"
 #include "vsplit/quality/stretch.h"
 
@@ -205,11 +205,6 @@ std::uint32_t used_vertices(const TriangleMesh& mesh) {
     return static_cast<std::uint32_t>(std::count(used.begin(), used.end(), true));
 }
 
-/// What is no longer there has no place to look at.
-void report_dropped(std::vector<Finding>& findings, Finding::Kind kind, std::uint32_t count, std::string_view what) {
-    if (count > 0) findings.push_back({kind, count, std::to_string(count) + " " + std::string(what), {}, {}});
-}
-
 const Finding* find_kind(const MeshReport& report, Finding::Kind kind) {
     const auto found =
         std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& f) { return f.kind == kind; });
@@ -234,21 +229,17 @@ std::string places(const Finding& finding, bool edges) {
 
 namespace {
 
-void report_unused_sets(std::vector<Finding>& findings, const std::vector<std::string>& names) {
-    if (names.empty()) return;
-    constexpr std::size_t kShown = 10;
-    Finding finding{Finding::Kind::kUnusedSet, static_cast<std::uint32_t>(names.size()), {}, {}, {}};
-    finding.message = std::to_string(names.size()) + " sets that no face is in were dropped: ";
-    for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i)
-        finding.message.append(i == 0 ? "" : ", ").append(quoted(names[i]));
-    if (names.size() > kShown) finding.message += ", ...";
-    findings.push_back(std::move(finding));
+/// Beyond what rounding makes of a sheet folded onto itself. \pre closed.
+bool looks_inwards(const TriangleMesh& mesh) {
+    constexpr double kRounding = 1e-9;
+    return enclosed_volume(mesh) < -kRounding * surface_area(mesh) * bounding_box(mesh).diagonal();
 }
 
 /// Where the examples of a finding are.
 void add_places(const TriangleMesh& mesh, Finding& finding) {
     const bool of_edges = finding.kind <= Finding::Kind::kInconsistentEdge;
-    const bool of_faces = finding.kind == Finding::Kind::kDegenerateFace || finding.kind == Finding::Kind::kDuplicateFace;
+    const bool of_faces = finding.kind == Finding::Kind::kDegenerateFace || finding.kind == Finding::Kind::kDuplicateFace ||
+                          finding.kind == Finding::Kind::kInsideOut;
     const std::vector<std::uint32_t>& e = finding.elements;
     for (std::size_t i = 0; i < e.size(); i += of_edges ? 2 : 1) {
         Vec3 place = Vec3::Zero();
@@ -300,12 +291,16 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     vertices.report(report.findings, "non-manifold vertices (more than one fan of faces)", "vertex");
     degenerate.report(report.findings, "degenerate faces (stretch under 1e-9)", "face");
     duplicates.report(report.findings, "faces with the same three vertices as an earlier one", "face");
+    if (report.closed && looks_inwards(mesh)) {
+        report.findings.push_back({Finding::Kind::kInsideOut,
+                                   report.faces,
+                                   "the mesh is inside out: its " + std::to_string(report.faces) + " faces look inwards",
+                                   {0},
+                                   {}});
+    }
     for (Finding& finding : report.findings) add_places(mesh, finding);
-    report_dropped(report.findings, Finding::Kind::kUnusedVertex, weld.unused_vertices,
-                   "vertices that no face used were dropped");
-    report_dropped(report.findings, Finding::Kind::kCollapsedFace, weld.collapsed_faces,
-                   "faces with two equal corners after the weld were dropped");
-    report_unused_sets(report.findings, weld.unused_sets);
+    const std::vector<Finding> welded = weld_findings(weld);
+    report.findings.insert(report.findings.end(), welded.begin(), welded.end());
     return report;
 }
 
@@ -313,6 +308,8 @@ namespace {
 
 /// What to do, for who has the file still.
 constexpr const char* kRepairHelps = "; a repair when the mesh is read mends that";
+
+constexpr const char* kFullRepairHelps = "; a full repair when the mesh is read mends that";
 
 Status require_faces_and_edges(const MeshReport& report) {
     if (report.faces == 0) return Error{Cause::kEmptyInput, "the mesh has no faces; at least one is needed", ""};
@@ -376,6 +373,12 @@ Status require_closed_manifold(const MeshReport& report) {
                      ""};
     }
     return require_vertices(report);
+}
+
+Status require_outward(const MeshReport& report) {
+    if (find_kind(report, Finding::Kind::kInsideOut) == nullptr) return Done{};
+    return Error{Cause::kNonManifold,
+                 "the mesh is inside out: its faces look inwards; faces must look outwards" + std::string(kFullRepairHelps), ""};
 }
 
 Status require_manifold(const MeshReport& report) {

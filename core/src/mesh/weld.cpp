@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/number_text.h"
@@ -10,6 +11,7 @@
 #include "mesh/exact_merger.h"
 #include "mesh/merge_vertices.h"
 #include "mesh/near_merger.h"
+#include "vsplit/mesh/finding.h"
 
 namespace vsplit {
 namespace {
@@ -52,14 +54,23 @@ Expected<WeldCounts> weld(TriangleMesh& mesh, double tolerance) {
         return Error{Cause::kInvalidOption,
                      "weld tolerance is " + number_text(tolerance) + "; a finite length of 0 or more is needed", "weld"};
     }
-    const std::size_t before = mesh.positions.size();
+    const std::vector<Vec3> before = tolerance > 0 ? mesh.positions : std::vector<Vec3>();
+    const std::size_t vertices = mesh.positions.size();
     const std::vector<std::uint32_t> numbers = merge_vertices(mesh.positions, tolerance);
     for (Triangle& face : mesh.faces) {
         for (std::uint32_t& vertex : face) vertex = numbers[vertex];
     }
-    const auto merged = static_cast<std::uint32_t>(before - mesh.positions.size());
+    const auto merged = static_cast<std::uint32_t>(vertices - mesh.positions.size());
+    std::vector<Vec3> near_places;
+    std::uint32_t near = 0;
+    for (std::size_t v = 0; v < before.size(); ++v) {
+        if (before[v] == mesh.positions[numbers[v]]) continue;
+        if (near++ < Finding::kExamples) near_places.push_back(before[v]);
+    }
     WeldCounts counts = drop_unused(mesh);
     counts.merged_vertices = merged;
+    counts.near_vertices = near;
+    counts.near_places = std::move(near_places);
     return counts;
 }
 

@@ -21,7 +21,7 @@ std::string_view what_changed(Finding::Kind kind) {
         case Finding::Kind::kStitchedVertex:
             return "vertices of borders were joined to a border nearby";
         case Finding::Kind::kTurnedFace:
-            return "faces were turned to agree with their neighbours";
+            return "faces were turned to agree with their neighbours or to look outwards";
         case Finding::Kind::kSplitEdge:
             return "edges with more than two faces, or faces that disagree, were cut apart";
         case Finding::Kind::kSplitVertex:

@@ -125,6 +125,7 @@ void join_regions(Draft& draft, const std::vector<Copies>& all, const std::vecto
     if (mesh.regions.empty()) return;
     RegionUnion regions(mesh);
     const auto lose = [&](std::uint32_t face, std::uint32_t region) {
+        if (regions.is_no_group(region)) return;
         draft.changes.add_loss(Finding::Kind::kLostFace, draft.centroid(face), draft.parent[face], regions.label(region));
     };
     for (const Copies& copies : all) {

@@ -51,7 +51,8 @@ void report_emptied_groups(Draft& draft, const TriangleMesh& input) {
             report(input.sets[s].regions, quoted(input.sets[s].name));
     }
     for (const auto& [region, faces] : before) {
-        if (in_sets.count(region) == 0 && left.count(region) == 0) report({region}, "region " + std::to_string(region));
+        if (region != 0 && in_sets.count(region) == 0 && left.count(region) == 0)
+            report({region}, "region " + std::to_string(region));
     }
 }
 

@@ -26,6 +26,9 @@ public:
     /// O(log regions + sets of both).
     [[nodiscard]] Joined join(std::uint32_t kept, std::uint32_t dropped);
 
+    /// Whether faces of it are in no group at all: there is nothing to lose.
+    [[nodiscard]] bool is_no_group(std::uint32_t region) const { return region == 0 && sets_of(region).empty(); }
+
     /// For people: "region 7", or "'skin', 'top'" by the sets it is in.
     [[nodiscard]] std::string label(std::uint32_t region) const;
 

@@ -8,6 +8,7 @@
 #include "base/number_text.h"
 #include "mesh/drop_unused.h"
 #include "mesh/merge_vertices.h"
+#include "mesh/weld_findings.h"
 #include "repair/steps.h"
 #include "vsplit/mesh/inspect.h"
 #include "vsplit/mesh/weld.h"
@@ -137,14 +138,9 @@ Expected<MeshReport> inspect_source(TriangleMesh& mesh, const WeldCounts& weld, 
     Expected<RepairedMesh> repaired = repair_mesh(mesh, *repair, context);
     if (!repaired) return repaired.error();
     mesh = std::move(repaired->mesh);
-    MeshReport report = inspect(mesh, weld);
-    std::vector<Finding> findings = std::move(repaired->findings);
-    for (const Finding& f : report.findings) {
-        const bool of_the_weld = f.kind == Finding::Kind::kUnusedVertex || f.kind == Finding::Kind::kCollapsedFace ||
-                                 f.kind == Finding::Kind::kUnusedSet;
-        if (of_the_weld) findings.push_back(f);
-    }
-    report.findings = std::move(findings);
+    MeshReport report = inspect(mesh);
+    report.findings = weld_findings(weld);
+    report.findings.insert(report.findings.end(), repaired->findings.begin(), repaired->findings.end());
     return report;
 }
 

@@ -28,8 +28,10 @@ Pieces find_pieces(const TriangleMesh& mesh) {
 void drop_specks(Draft& draft, double size) {
     const Pieces pieces = find_pieces(draft.mesh);
     std::vector<bool> dropped(draft.mesh.faces.size());
-    for (std::uint32_t f = 0; f < dropped.size(); ++f) dropped[f] = pieces.box[pieces.of_face[f]].diagonal() < size;
-    if (std::find(dropped.begin(), dropped.end(), false) == dropped.end()) return;
+    double largest = 0;  // is kept whatever its size
+    for (std::uint32_t f = 0; f < dropped.size(); ++f) largest = std::max(largest, pieces.box[pieces.of_face[f]].diagonal());
+    const double kept_from = std::min(size, largest);
+    for (std::uint32_t f = 0; f < dropped.size(); ++f) dropped[f] = pieces.box[pieces.of_face[f]].diagonal() < kept_from;
     for (std::uint32_t f = 0; f < dropped.size(); ++f) {
         if (!dropped[f] || pieces.of_face[f] != f) continue;
         draft.changes.add(Finding::Kind::kDroppedSpeck, draft.centroid(f), draft.parent[f]);

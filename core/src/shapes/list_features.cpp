@@ -228,7 +228,9 @@ Expected<std::vector<ShapeFeature>> list_features(const TriangleMesh& mesh, cons
         return Error{Cause::kInvalidOption,
                      "angle is " + number_text(search.angle) + "; accepted are degrees over 0 and under 180", "angle"};
     }
-    if (Status closed = require_closed_manifold(inspect(mesh)); !closed) return closed.error();
+    const MeshReport report = inspect(mesh);
+    if (Status closed = require_closed_manifold(report); !closed) return closed.error();
+    if (Status outward = require_outward(report); !outward) return outward.error();
     return Recogniser(mesh, search.angle).run();
 }
 

@@ -20,6 +20,7 @@ struct Finding {
         kNonManifoldVertex,  ///< more than one fan of faces
         kDegenerateFace,     ///< stretch under 1e-9
         kDuplicateFace,      ///< the same three vertices as an earlier face
+        kInsideOut,          ///< the mesh is closed and its faces look inwards
         kUnusedVertex,       ///< no face used it; dropped by the weld
         kCollapsedFace,      ///< two corners equal after the weld; dropped
         kUnusedSet,          ///< a named set of the file that no face is in; dropped when it was read

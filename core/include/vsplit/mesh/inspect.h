@@ -43,6 +43,9 @@ struct MeshReport {
 /// \return NON_MANIFOLD or OPEN_MESH naming the first edges at fault, EMPTY_INPUT for no faces.
 [[nodiscard]] Status require_closed_manifold(const MeshReport& report);
 
+/// Whether a closed mesh's faces look outwards. \return NON_MANIFOLD where they look inwards.
+[[nodiscard]] Status require_outward(const MeshReport& report);
+
 /// Whether the methods accept this mesh: as above, but it may have open boundaries that do not touch themselves.
 /// \return NON_MANIFOLD naming the first edges or vertices at fault, EMPTY_INPUT for no faces.
 [[nodiscard]] Status require_manifold(const MeshReport& report);
