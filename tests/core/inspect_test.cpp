@@ -45,7 +45,7 @@ TEST(InspectTest, AClosedMeshWhoseFacesLookInwardsIsInsideOut) {
     const Finding* const finding = find(report, Finding::Kind::kInsideOut);
     ASSERT_NE(finding, nullptr);
     EXPECT_EQ(finding->count, mesh.face_count());
-    EXPECT_EQ(finding->places.size(), 1U);
+    EXPECT_EQ(finding->places.size(), Finding::kExamples);
     EXPECT_TRUE(require_closed_manifold(report));
     ASSERT_FALSE(require_outward(report));
     EXPECT_EQ(require_outward(report).error().cause, Cause::kNonManifold);

@@ -292,11 +292,9 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     degenerate.report(report.findings, "degenerate faces (stretch under 1e-9)", "face");
     duplicates.report(report.findings, "faces with the same three vertices as an earlier one", "face");
     if (report.closed && looks_inwards(mesh)) {
-        report.findings.push_back({Finding::Kind::kInsideOut,
-                                   report.faces,
-                                   "the mesh is inside out: its " + std::to_string(report.faces) + " faces look inwards",
-                                   {0},
-                                   {}});
+        FindingCounter inwards(Finding::Kind::kInsideOut);
+        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) inwards.add({f});
+        inwards.report(report.findings, "faces look inwards: the mesh is inside out", "face");
     }
     for (Finding& finding : report.findings) add_places(mesh, finding);
     const std::vector<Finding> welded = weld_findings(weld);
