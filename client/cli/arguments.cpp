@@ -87,11 +87,15 @@ void add_input(CLI::App& verb, Arguments& a, const char* what) {
         "small holes too. Default: nothing is mended")
         ->type_name("R");
     add_real(verb, "--stitch", a.stitch,
-             "With --repair full, borders this close are joined; length, >= 0. Default: 0.2 % of the diagonal of the mesh's box");
+             "With --repair full, borders this close are joined; length, >= 0. Default: 0.2 % of the diagonal of the mesh's box")
+        ->type_name("L");
     add_real(verb, "--hole-size", a.hole_size,
-             "With --repair full, holes with a box of at most this diagonal are filled; length, >= 0. Default: 5 %");
+             "With --repair full, holes with a box of at most this diagonal are filled; length, >= 0. Default: 5 %")
+        ->type_name("L");
     add_real(verb, "--speck-size", a.speck_size,
-             "With --repair full, pieces with a box of a smaller diagonal are dropped; length, >= 0. Default: 0.1 %");
+             "With --repair full, pieces with a box of a smaller diagonal are dropped, the largest aside; length, >= 0. Default: "
+             "0.1 %")
+        ->type_name("L");
     add_unit(verb, "--unit", a.unit,
              "Unit of the lengths in IN, where it does not say it: um, mm, cm, m, in or ft. 3MF says it; default: not known");
 }
@@ -272,7 +276,8 @@ void add_method(CLI::App& verb, Arguments& a, Options& o, const char* default_fa
     verb.add_option("--max-deviation", o.max_deviation,
                     "Length > 0: no point of the result is further from the source, nor of the source from the result; mode "
                     "extended only. "
-                    "Certain where given, if need be with more faces. Default twice --tolerance, kept at samples")
+                    "Certain where given, if need be with more faces. Default twice --tolerance; where two attempts do not keep "
+                    "that, the options used say what was measured")
         ->check(real_number())
         ->type_name("D");
     verb.add_option("--feature-angle", o.feature_angle,

@@ -25,8 +25,8 @@ struct RepairOptions {
     double weld = 0;                    ///< SAFE, FULL: vertices this close become one; 0 merges equal ones
     std::optional<double> stitch{};     ///< FULL: borders this close are joined; default 0.2 % of the diagonal
     std::optional<double> hole_size{};  ///< FULL: holes with a box of at most this diagonal are filled; default 5 % of the mesh's
-    std::optional<double>
-        speck_size{};  ///< FULL: pieces with a box of a smaller diagonal are dropped; default 0.1 % of the mesh's
+    std::optional<double> speck_size{};  ///< FULL: pieces with a box of a smaller diagonal are dropped, the largest aside;
+                                         ///< default 0.1 % of the mesh's
 };
 
 /// A repaired mesh, and what was done to it.
