@@ -59,9 +59,8 @@ struct RepairedMesh {
 ///    several fans becomes several, at the same place. Where both ends of such an edge stay whole, it gets a vertex in its
 ///    middle.
 /// 6. FLATTENED_FACE: faces without area are flipped or contracted away; those that hang on others by an edge, before 4.
-/// 7. FULL: DROPPED_SPECK, FILLED_HOLE: by the triangulation of least area; the only or outer border of a piece is no hole. Then
-/// 6
-///    again, for holes along a line.
+/// 7. FULL: DROPPED_SPECK, FILLED_HOLE: by the triangulation of least area; the only or outer border of a piece is no hole.
+///    Then step 6 again, for holes along a line.
 ///
 /// \pre every index is below the number of vertices, coordinates are finite.
 /// \return what `check_options` returns; CANCELLED.
