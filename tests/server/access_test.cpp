@@ -155,8 +155,8 @@ protected:
                            extras.gate = gate_.get();
                            return extras;
                        }()};
-    grpc::GenericStub stub_{
-        grpc::CreateChannel("127.0.0.1:" + std::to_string(doors_.grpc().server().port()), grpc::InsecureChannelCredentials())};
+    grpc::GenericStub stub_{connected(
+        grpc::CreateChannel("127.0.0.1:" + std::to_string(doors_.grpc().server().port()), grpc::InsecureChannelCredentials()))};
     pb::DynamicMessageFactory factory_;
     std::string session_;
 };

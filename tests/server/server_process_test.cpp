@@ -81,7 +81,7 @@ protected:
         const std::size_t http = line->find(" and http://127.0.0.1:");
         ASSERT_NE(http, std::string::npos) << *line;
         address_ = line->substr(promised.size(), http - promised.size());
-        channel_ = grpc::CreateChannel(address_, grpc::InsecureChannelCredentials());
+        channel_ = connected(grpc::CreateChannel(address_, grpc::InsecureChannelCredentials()));
         stub_ = v1::Meshing::NewStub(channel_);
     }
 

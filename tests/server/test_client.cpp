@@ -84,6 +84,11 @@ private:
 
 }  // namespace
 
+std::shared_ptr<grpc::Channel> connected(std::shared_ptr<grpc::Channel> channel) {
+    EXPECT_TRUE(channel->WaitForConnected(std::chrono::system_clock::now() + std::chrono::seconds(20)));
+    return channel;
+}
+
 std::unique_ptr<grpc::ClientContext> call(std::chrono::milliseconds deadline) {
     auto context = std::make_unique<grpc::ClientContext>();
     context->set_deadline(std::chrono::system_clock::now() + deadline);

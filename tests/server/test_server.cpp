@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "test_client.h"
 #include "wire/error_table.h"
 
 namespace vsplit::test {
@@ -28,16 +29,20 @@ TestServer::TestServer(const service::ServiceOptions& options, rpc::GrpcExtras e
         std::abort();  // no test can say anything without a server
     }
     server_ = *std::move(server);
-    stub_ = connect();
 }
 
 TestServer::~TestServer() { server_->shutdown(std::chrono::milliseconds(0)); }
+
+v1::Meshing::Stub& TestServer::stub() {
+    std::call_once(connected_, [this] { stub_ = connect(); });
+    return *stub_;
+}
 
 std::unique_ptr<v1::Meshing::Stub> TestServer::connect() const {
     grpc::ChannelArguments arguments;
     arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);  // a connection of its own, not one shared with other stubs
     const std::string address = "127.0.0.1:" + std::to_string(server_->port());
-    return v1::Meshing::NewStub(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
+    return v1::Meshing::NewStub(connected(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments)));
 }
 
 std::vector<std::string> TestServer::finished() const {

@@ -23,7 +23,8 @@ public:
     explicit TestServer(const service::ServiceOptions& options = small_server(), rpc::GrpcExtras extras = {});
     ~TestServer();
 
-    [[nodiscard]] v1::Meshing::Stub& stub() { return *stub_; }
+    /// Connected when first asked for: a server that counts its connections may be left alone.
+    [[nodiscard]] v1::Meshing::Stub& stub();
     [[nodiscard]] service::MeshingService& service() { return service_; }
     [[nodiscard]] std::unique_ptr<v1::Meshing::Stub> connect() const;
     [[nodiscard]] rpc::GrpcServer& server() { return *server_; }
@@ -39,6 +40,7 @@ private:
     std::vector<std::string> finished_;
     service::MeshingService service_;
     std::unique_ptr<rpc::GrpcServer> server_;
+    std::once_flag connected_;
     std::unique_ptr<v1::Meshing::Stub> stub_;
 };
 
