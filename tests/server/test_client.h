@@ -25,8 +25,8 @@ using Stub = v1::Meshing::Stub;
 /// A call's context with a deadline, so that no test waits for ever.
 [[nodiscard]] std::unique_ptr<grpc::ClientContext> call(std::chrono::milliseconds deadline = std::chrono::seconds(120));
 
-/// The channel once it is connected. A call on one that is not yet fails where its first attempt does, and gRPC 1.51 has been seen
-/// to give one up for an errno that is none of connect()'s ("No such file or directory").
+/// The channel once it is connected. A call on one that is not yet fails where its first attempt does, and gRPC 1.51 has been
+/// seen to give one up for an errno that is none of connect()'s ("No such file or directory").
 std::shared_ptr<grpc::Channel> connected(std::shared_ptr<grpc::Channel> channel);
 
 /// Whether the status carries this cause and field in its google.rpc details, and a message.
