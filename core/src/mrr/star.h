@@ -40,22 +40,19 @@ public:
             Offset& d = offsets_[n];
             for (int axis = 0; axis < 3; ++axis) d[axis] = positions[neighbour][axis] - centre[axis];
             // Doubles that are not negative are in the order of their bits. Nobody can foresee which is the nearest, so this is
-            // selected, not branched to.
+            // selected, not branched to: by masks, for g++ makes a choice a branch again.
             const auto square = std::bit_cast<std::uint64_t>(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
             const bool nearer = (square < least) | ((square == least) & (neighbour < nearest));
-            first = nearer ? n : first;
-            nearest = nearer ? neighbour : nearest;
-            least = nearer ? square : least;
+            const std::uint64_t mask = 0 - std::uint64_t{nearer};
+            first ^= (first ^ n) & static_cast<std::uint32_t>(mask);
+            nearest ^= (nearest ^ neighbour) & static_cast<std::uint32_t>(mask);
+            least ^= (least ^ square) & mask;
             ++n;
             corner = twins[prev(corner)];
         } while (corner != start);
         valence_ = n;
         first_ = first;
-        for (std::uint32_t from = 0; from < n; from += kCopied) {
-            copy(offsets_, from);
-            copy(corners_, from);
-            copy(vertices_, from);
-        }
+        for (std::uint32_t from = 0; from < n; from += kCopied) repeat(from);
     }
 
     /// Begins the ring `steps` later. \pre steps < valence().
@@ -80,12 +77,14 @@ public:
 private:
     static constexpr std::uint32_t kCopied = 8;  // at once: as many as most rings have, so that no loop is needed for them
 
-    /// The second time around, as far as kCopied elements from `from` on go; beyond the ring there is room.
-    template <class Element>
-    void copy(std::vector<Element>& elements, std::uint32_t from) const {
-        std::array<Element, kCopied> some;
-        std::copy_n(elements.data() + from, kCopied, some.data());
-        std::copy_n(some.data(), kCopied, elements.data() + valence_ + from);
+    /// The second time around, as far as kCopied neighbours from `from` on go; beyond the ring there is room. Number by number: a
+    /// processor hands on what was just written to who reads as much of it, and lets who reads more wait.
+    void repeat(std::uint32_t from) {
+        for (std::uint32_t n = from; n < from + kCopied; ++n) {
+            for (int axis = 0; axis < 3; ++axis) offsets_[valence_ + n][axis] = offsets_[n][axis];
+            corners_[valence_ + n] = corners_[n];
+            vertices_[valence_ + n] = vertices_[n];
+        }
     }
     void grow() {
         const std::size_t size = 2 * (corners_.size() + 2 * std::size_t{kCopied});
