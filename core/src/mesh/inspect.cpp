@@ -230,9 +230,10 @@ std::string places(const Finding& finding, bool edges) {
 namespace {
 
 /// Beyond what rounding makes of a sheet folded onto itself. \pre closed.
-bool looks_inwards(const TriangleMesh& mesh) {
+bool looks_inwards(const TriangleMesh& mesh, const BoundingBox& box) {
     constexpr double kRounding = 1e-9;
-    return enclosed_volume(mesh) < -kRounding * surface_area(mesh) * bounding_box(mesh).diagonal();
+    const double volume = enclosed_volume(mesh);
+    return volume < 0 && volume < -kRounding * surface_area(mesh) * box.diagonal();
 }
 
 /// Where the examples of a finding are.
@@ -264,11 +265,18 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     EdgeSurvey edges;
     FindingCounter vertices(Finding::Kind::kNonManifoldVertex), degenerate(Finding::Kind::kDegenerateFace),
         duplicates(Finding::Kind::kDuplicateFace);
+    std::uint32_t used = 0;
+    bool inwards = false;  // if it is closed
     // Each looks at the mesh and writes what is its own.
     tbb::parallel_invoke([&] { vertices = survey_vertices(mesh, index, is_regular(mesh, index)); },
                          [&] { edges = survey_edges(mesh, index); }, [&] { duplicates = survey_duplicates(mesh, index); },
-                         [&] { degenerate = survey_degenerate(mesh); }, [&] { report.quality = measure_quality(mesh, index); },
-                         [&] { report.box = bounding_box(mesh); }, [&] { report.groups = list_groups(mesh); });
+                         [&] { report.quality = measure_quality(mesh, index); },
+                         [&] {
+                             report.box = bounding_box(mesh);
+                             inwards = looks_inwards(mesh, report.box);
+                         },
+                         [&] { used = used_vertices(mesh); }, [&] { report.groups = list_groups(mesh); });
+    if (report.quality.stretch_min < kDegenerateStretch) degenerate = survey_degenerate(mesh);
     report.boundary_touches = survey_touches(mesh, index, vertices);
     report.components = edges.components;
     report.boundary_edges = edges.boundary.count();
@@ -281,7 +289,7 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
         report.non_manifold_edges + report.inconsistent_edges + report.non_manifold_vertices + report.duplicate_faces == 0;
     report.closed = manifold && report.boundary_edges == 0 && report.faces > 0;
     if (report.closed) {
-        const std::int64_t euler = std::int64_t{used_vertices(mesh)} - edges.edges + report.faces;
+        const std::int64_t euler = std::int64_t{used} - edges.edges + report.faces;
         report.genus = static_cast<std::int32_t>(report.components - euler / 2);
     }
 
@@ -291,10 +299,10 @@ MeshReport inspect(const TriangleMesh& mesh, const WeldCounts& weld) {
     vertices.report(report.findings, "non-manifold vertices (more than one fan of faces)", "vertex");
     degenerate.report(report.findings, "degenerate faces (stretch under 1e-9)", "face");
     duplicates.report(report.findings, "faces with the same three vertices as an earlier one", "face");
-    if (report.closed && looks_inwards(mesh)) {
-        FindingCounter inwards(Finding::Kind::kInsideOut);
-        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) inwards.add({f});
-        inwards.report(report.findings, "faces look inwards: the mesh is inside out", "face");
+    if (report.closed && inwards) {
+        FindingCounter counter(Finding::Kind::kInsideOut);
+        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) counter.add({f});
+        counter.report(report.findings, "faces look inwards: the mesh is inside out", "face");
     }
     for (Finding& finding : report.findings) add_places(mesh, finding);
     const std::vector<Finding> welded = weld_findings(weld);
