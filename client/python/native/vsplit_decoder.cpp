@@ -66,10 +66,10 @@ struct vsplit_decoder {
 
     Status append(const vsplit::RecordBlock& block) {
         if (block.first != records_held()) {
-            return Error{Cause::kOutOfOrder,
-                         "a block begins at record " + std::to_string(block.first) + ", expected is " +
-                             std::to_string(records_held()),
-                         ""};
+            return Error{
+                Cause::kOutOfOrder,
+                "a block begins at record " + std::to_string(block.first) + ", expected is " + std::to_string(records_held()),
+                ""};
         }
         if (Status gone = go_to(held.records.size()); !gone) return gone;
         if (Status decoded = codec.decode(block, *mesh, &held.records); !decoded) return decoded;
@@ -193,9 +193,7 @@ int vsplit_decoder_show(vsplit_decoder* decoder, std::uint32_t faces) {
 }
 
 std::uint32_t vsplit_decoder_faces_held(const vsplit_decoder* decoder) { return decoder->mesh ? decoder->held.faces_max() : 0; }
-std::uint32_t vsplit_decoder_records_held(const vsplit_decoder* decoder) {
-    return decoder->records_held();
-}
+std::uint32_t vsplit_decoder_records_held(const vsplit_decoder* decoder) { return decoder->records_held(); }
 std::uint32_t vsplit_decoder_vertices(const vsplit_decoder* decoder) { return decoder->visible.vertex_count(); }
 std::uint32_t vsplit_decoder_faces(const vsplit_decoder* decoder) { return decoder->visible.face_count(); }
 

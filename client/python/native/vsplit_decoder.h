@@ -46,7 +46,8 @@ int vsplit_decoder_add_set(vsplit_decoder* decoder, const char* name, const uint
 /// Shows the resolution nearest to `faces` of those that have come.
 int vsplit_decoder_show(vsplit_decoder* decoder, uint32_t faces);
 
-/// Faces of the finest resolution and records that have come, those that a keyframe has in it too; vertices and faces of what is shown.
+/// Faces of the finest resolution and records that have come, those that a keyframe has in it too; vertices and faces of what is
+/// shown.
 uint32_t vsplit_decoder_faces_held(const vsplit_decoder* decoder);
 uint32_t vsplit_decoder_records_held(const vsplit_decoder* decoder);
 uint32_t vsplit_decoder_vertices(const vsplit_decoder* decoder);
