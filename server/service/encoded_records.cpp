@@ -24,12 +24,12 @@ bool usually_begins_at(std::size_t record) { return record == kFirst || record %
 EncodedRecords::EncodedRecords(const MultiresMesh& mrr, const BoundingBox& box, const EncodingChoice& choice)
     : mrr_(mrr), grid_(*PositionGrid::over(box, choice)), codec_(grid_) {}
 
-std::shared_ptr<const PackedBase> EncodedRecords::base() {
+std::shared_ptr<const EncodedBase> EncodedRecords::base() {
     std::call_once(base_made_, [this] {
         double largest = 0;
         for_each_position(mrr_, [&largest](const Vec3& p) { largest = std::max(largest, p.cwiseAbs().maxCoeff()); });
-        base_ = std::make_shared<const PackedBase>(
-            PackedBase{pack_base(rounded_base(), mrr_.ghosts, grid_), grid_.max_error(largest)});
+        base_ = std::make_shared<const EncodedBase>(
+            EncodedBase{pack_base(rounded_base(), mrr_.ghosts, grid_), grid_.max_error(largest)});
     });
     return base_;
 }

@@ -13,7 +13,7 @@
 namespace vsplit::service {
 
 /// A base mesh, rounded and packed (pack_base).
-struct PackedBase {
+struct EncodedBase {
     std::string bytes;
     double max_error = 0;  ///< of any coordinate of base mesh and records, model units
 };
@@ -31,7 +31,7 @@ public:
     [[nodiscard]] const PositionGrid& grid() const { return grid_; }
 
     /// Heavy the first time: O(records).
-    [[nodiscard]] std::shared_ptr<const PackedBase> base();
+    [[nodiscard]] std::shared_ptr<const EncodedBase> base();
 
     /// A block that begins at record `first` and ends at `last` at the latest, if it has been made. O(log(blocks)).
     [[nodiscard]] Block find(std::size_t first, std::size_t last) const;
@@ -49,7 +49,7 @@ private:
     mutable std::mutex mutex_;  // of the blocks
     std::mutex making_;         // of what makes them; taken first
     std::once_flag base_made_;
-    std::shared_ptr<const PackedBase> base_;
+    std::shared_ptr<const EncodedBase> base_;
     std::map<std::size_t, Block> blocks_;  // by first record
     std::set<std::size_t> begins_;         // where blocks usually begin, beside the multiples
     RecordCodec codec_;
