@@ -76,15 +76,9 @@ v1::BaseMesh base_mesh_part(const TriangleMesh& mesh, std::size_t part, std::uin
     return proto;
 }
 
-PackedBaseMesh pack_base_mesh(const MultiresMesh& mrr, const PositionGrid& grid) {
-    TriangleMesh base = mrr.base;
-    for (Vec3& position : base.positions) position = grid.snap(position);
-    double largest = 0;
-    for_each_position(mrr, [&largest](const Vec3& p) { largest = std::max(largest, p.cwiseAbs().maxCoeff()); });
-    PackedBaseMesh packed{
-        pack_base(base, mrr.ghosts, grid), 0, base.vertex_count(), base.face_count(), mrr.ghosts, grid, grid.max_error(largest)};
-    packed.crc32c = crc32c(std::as_bytes(std::span(packed.bytes)));
-    return packed;
+PackedBaseMesh packed_base_mesh(const MultiresMesh& mrr, const PositionGrid& grid, std::string bytes, double max_error) {
+    const std::uint32_t sum = crc32c(std::as_bytes(std::span(bytes)));
+    return {std::move(bytes), sum, mrr.base.vertex_count(), mrr.base.face_count(), mrr.ghosts, grid, max_error};
 }
 
 std::size_t base_mesh_parts(const PackedBaseMesh& base) { return parts_of(base.bytes.size(), kMaxPartBytes); }

@@ -31,8 +31,9 @@ struct PackedBaseMesh {
     double max_error = 0;  ///< of any coordinate of the stream, model units
 };
 
-/// \pre grid is not of kFloat64, and that of `mrr`. O(records).
-[[nodiscard]] PackedBaseMesh pack_base_mesh(const MultiresMesh& mrr, const PositionGrid& grid);
+/// That of `mrr`, which pack_base made `bytes` of. \pre grid is not of kFloat64. O(bytes).
+[[nodiscard]] PackedBaseMesh packed_base_mesh(const MultiresMesh& mrr, const PositionGrid& grid, std::string bytes,
+                                              double max_error);
 
 [[nodiscard]] std::size_t base_mesh_parts(const PackedBaseMesh& base);
 

@@ -1,9 +1,5 @@
 // Sizes and speeds of the encodings of records, against mesh files and mesh codecs, on .vsplit files: tables in Markdown.
 // bench_records FILE...; bench_records --stream FILE prints the stream at 14 bits instead.
-#include <draco/compression/encode.h>
-#include <draco/mesh/triangle_soup_mesh_builder.h>
-#include <meshoptimizer.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -11,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "records/mesh_codecs.h"
 #include "vsplit/io/write_mesh.h"
 #include "vsplit/mrr/base_codec.h"
 #include "vsplit/mrr/mrr_file.h"
@@ -61,46 +58,6 @@ Figures measure(const MultiresMesh& mrr, const EncodingChoice& choice, std::size
     return figures;
 }
 
-std::size_t draco_bytes(const TriangleMesh& mesh) {
-    draco::TriangleSoupMeshBuilder builder;
-    builder.Start(static_cast<int>(mesh.face_count()));
-    const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-        float corners[3][3];
-        for (int c = 0; c < 3; ++c) {
-            for (int axis = 0; axis < 3; ++axis) corners[c][axis] = static_cast<float>(mesh.positions[mesh.faces[f][c]][axis]);
-        }
-        builder.SetAttributeValuesForFace(position, draco::FaceIndex(f), corners[0], corners[1], corners[2]);
-    }
-    draco::Encoder encoder;
-    encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
-    draco::EncoderBuffer buffer;
-    return encoder.EncodeMeshToBuffer(*builder.Finalize(), &buffer).ok() ? buffer.size() : 0;
-}
-
-/// Its codecs of vertex and index buffers alone, positions as 16-bit numbers of which 14 bits are used; ordered for it first.
-std::size_t meshoptimizer_bytes(const TriangleMesh& mesh) {
-    BoundingBox box = bounding_box(mesh);
-    const double step = (box.max - box.min).maxCoeff() / 16383;
-    struct Vertex {
-        std::uint16_t xyz[4];
-    };
-    std::vector<Vertex> vertices(mesh.positions.size());
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-        for (int axis = 0; axis < 3; ++axis)
-            vertices[v].xyz[axis] = static_cast<std::uint16_t>((mesh.positions[v][axis] - box.min[axis]) / step + 0.5);
-    }
-    std::vector<unsigned> indices;
-    for (const Triangle& face : mesh.faces) indices.insert(indices.end(), face.begin(), face.end());
-    meshopt_optimizeVertexCache(indices.data(), indices.data(), indices.size(), vertices.size());
-    meshopt_optimizeVertexFetch(vertices.data(), indices.data(), indices.size(), vertices.data(), vertices.size(),
-                                sizeof(Vertex));
-    std::vector<unsigned char> buffer(std::max(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(Vertex)),
-                                               meshopt_encodeIndexBufferBound(indices.size(), vertices.size())));
-    return meshopt_encodeVertexBuffer(buffer.data(), buffer.size(), vertices.data(), vertices.size(), sizeof(Vertex)) +
-           meshopt_encodeIndexBuffer(buffer.data(), buffer.size(), indices.data(), indices.size());
-}
-
 void print_encodings(const std::string& name, const MultiresMesh& mrr) {
     for (const auto& [text, choice] : {std::pair("FLOAT64", EncodingChoice{RecordEncoding::kFloat64, 0}),
                                        {"FLOAT32", {RecordEncoding::kFloat32, 0}},
@@ -118,10 +75,10 @@ void print_whole(const std::string& name, const MultiresMesh& mrr, std::uint32_t
     const std::size_t level = mrr.level_for(faces);
     const TriangleMesh mesh = mesh_at(mrr, level);
     const Figures f = measure(mrr, {RecordEncoding::kQuantised, 14}, level);
-    const std::size_t whole = f.base + f.records, draco = draco_bytes(mesh);
+    const std::size_t whole = f.base + f.records, draco = bench::encode_draco(mesh).size();
     std::printf("| %s | %u | %zu | %zu | %zu | %zu | %zu | %.2f |\n", name.c_str(), mesh.face_count(),
                 write_mesh(mesh, MeshFormat::kStlBinary).size(), write_mesh(mesh, MeshFormat::kPlyBinary).size(),
-                meshoptimizer_bytes(mesh), draco, whole, static_cast<double>(whole) / static_cast<double>(draco));
+                bench::encode_meshoptimizer(mesh).size(), draco, whole, static_cast<double>(whole) / static_cast<double>(draco));
 }
 
 std::string hex(std::span<const std::byte> bytes) {

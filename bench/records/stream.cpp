@@ -1,6 +1,6 @@
 // How fast a server sends records to one client, how soon the first block comes, and what readers that stall cost it, on a
-// representation that it holds; then how soon a client that holds nothing has a mesh, by records and by files: tables in
-// Markdown. bench_stream HOST:PORT SESSION PID, PID the server's on this machine.
+// representation that it holds; then how soon a client that holds nothing has a mesh, by records, by files and by other people's
+// codecs: tables in Markdown. bench_stream HOST:PORT SESSION PID, PID the server's on this machine.
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,11 +13,14 @@
 #include <latch>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "records/file_server.h"
+#include "records/mesh_codecs.h"
 #include "vsplit/client/mesh_receiver.h"
 #include "vsplit/client/meshing_client.h"
 #include "vsplit/io/read_mesh.h"
@@ -115,19 +118,40 @@ Meshes receive_mesh(client::MeshingClient& client, const v1::SetResolutionReques
     return meshes;
 }
 
-/// Read, to a client that holds nothing.
-Meshes download(client::MeshingClient& client, const v1::DownloadMeshRequest& request) {
+client::MeshingClient connected(const std::string& server) {
+    auto client = client::MeshingClient::connect(server);
+    if (!client) stop(client.error());
+    return *std::move(client);
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+TriangleMesh read_file(const std::filesystem::path& file) {
+    auto read = read_mesh_file(file, {});
+    if (!read) stop(read.error());
+    return std::move(read->mesh);
+}
+
+/// As a file, which is read into an indexed mesh, to a client that holds nothing.
+template <class Read>
+Meshes download(client::MeshingClient& client, const v1::DownloadMeshRequest& request, const Read& read) {
     const std::filesystem::path file = std::filesystem::temp_directory_path() / ("bench_stream_" + std::to_string(::getpid()));
     const Clock::time_point start = Clock::now();
-    if (const auto done = client.download_mesh(request, file); !done) stop(done.error());
-    if (const auto mesh = read_mesh_file(file, {}); !mesh) stop(mesh.error());
+    const auto faces = client.download_mesh(request, file);
+    if (!faces) stop(faces.error());
+    const TriangleMesh mesh = read(file);
     const double seconds = seconds_since(start);
     std::filesystem::remove(file);
+    if (mesh.face_count() != *faces) stop({Cause::kCorrupt, "a file has not the faces that were sent", ""});
     return {seconds, seconds};
 }
 
+/// `beforehand`: how long it took to encode, for what was encoded before anybody asked.
 template <class Fetch>
-void print_meshes(const char* name, const Fetch& fetch) {
+void print_meshes(const char* name, const std::string& beforehand, const Fetch& fetch) {
     const Meshes unmade = fetch();
     std::vector<double> first, last;
     for (int round = 0; round < kRounds; ++round) {
@@ -135,33 +159,76 @@ void print_meshes(const char* name, const Fetch& fetch) {
         first.push_back(meshes.first * 1e3);
         last.push_back(meshes.last * 1e3);
     }
-    std::printf("| %s | %.1f, %.1f | %.1f, %.1f |\n", name, unmade.first * 1e3, median(first), unmade.last * 1e3, median(last));
+    std::printf("| %s | %s | %.1f, %.1f | %.1f, %.1f |\n", name, beforehand.c_str(), unmade.first * 1e3, median(first),
+                unmade.last * 1e3, median(last));
+}
+
+void print_records(client::MeshingClient& client, const v1::SetResolutionRequest& level) {
+    for (const auto& [name, encoding, bits] : {std::tuple("records, FLOAT64", v1::FLOAT64, 0U),
+                                               {"records, FLOAT32", v1::FLOAT32, 0U},
+                                               {"records, 14 bits", v1::QUANTISED, 14U}}) {
+        v1::SetResolutionRequest request = level;
+        request.set_encoding(encoding);
+        request.set_quantisation_bits(bits);
+        print_meshes(name, "-", [&] { return receive_mesh(client, request); });
+    }
+}
+
+void print_files(client::MeshingClient& client, v1::DownloadMeshRequest request) {
+    for (const auto& [name, format] : {std::pair("binary STL", v1::STL), {"binary PLY", v1::PLY}}) {
+        request.set_format(format);
+        print_meshes(name, "-", [&] { return download(client, request, read_file); });
+    }
+}
+
+struct MeshCodec {
+    const char* name;
+    std::string (*encode)(const TriangleMesh&);
+    TriangleMesh (*decode)(std::string_view);
+};
+
+/// The server has no such file: it is encoded beforehand, and comes from this process over a connection of the same kind.
+void print_codec(const MeshCodec& codec, const TriangleMesh& mesh) {
+    std::vector<double> encoding;
+    std::string file;
+    for (int round = 0; round < kRounds; ++round) {
+        const Clock::time_point start = Clock::now();
+        file = codec.encode(mesh);
+        encoding.push_back(seconds_since(start) * 1e3);
+    }
+    const BoundingBox sent = bounding_box(mesh), got = bounding_box(codec.decode(file));
+    if (!((sent.min - got.min).cwiseAbs().maxCoeff() <= (sent.max - sent.min).maxCoeff() / 16383 &&
+          (sent.max - got.max).cwiseAbs().maxCoeff() <= (sent.max - sent.min).maxCoeff() / 16383))
+        stop({Cause::kCorrupt, std::string(codec.name) + ": what comes back is elsewhere", ""});
+    const bench::FileServer server(std::move(file), mesh.face_count());
+    client::MeshingClient client = connected(server.address());
+    char beforehand[32];
+    std::snprintf(beforehand, sizeof(beforehand), "%.1f", median(encoding));
+    const auto read = [&codec](const std::filesystem::path& path) { return codec.decode(bytes_of(path)); };
+    print_meshes(codec.name, beforehand, [&] { return download(client, {}, read); });
 }
 
 /// How soon a client has a level, by all the ways there are.
 void print_all_meshes(client::MeshingClient& client, const std::string& session, const std::string& representation,
                       std::uint32_t faces) {
-    std::printf("\n| %u faces, as | A mesh to show, ms: first time, median of %d | The mesh asked for, ms |\n|---|--:|--:|\n",
-                faces, kRounds);
-    for (const auto& [name, encoding, bits] : {std::tuple("records, FLOAT64", v1::FLOAT64, 0U),
-                                               {"records, FLOAT32", v1::FLOAT32, 0U},
-                                               {"records, 14 bits", v1::QUANTISED, 14U}}) {
-        v1::SetResolutionRequest request;
-        request.set_session(session);
-        request.set_representation(representation);
-        request.set_faces(faces);
-        request.set_encoding(encoding);
-        request.set_quantisation_bits(bits);
-        print_meshes(name, [&] { return receive_mesh(client, request); });
-    }
-    for (const auto& [name, format] : {std::pair("binary STL", v1::STL), {"binary PLY", v1::PLY}}) {
-        v1::DownloadMeshRequest request;
-        request.set_session(session);
-        request.set_representation(representation);
-        request.set_faces(faces);
-        request.set_format(format);
-        print_meshes(name, [&] { return download(client, request); });
-    }
+    std::printf(
+        "\n| %u faces, as | Encoded beforehand, ms | A mesh to show, ms: first time, median of %d | The mesh asked for, ms |\n"
+        "|---|--:|--:|--:|\n",
+        faces, kRounds);
+    v1::SetResolutionRequest level;
+    level.set_session(session);
+    level.set_representation(representation);
+    level.set_faces(faces);
+    print_records(client, level);
+    v1::DownloadMeshRequest file;
+    file.set_session(session);
+    file.set_representation(representation);
+    file.set_faces(faces);
+    print_files(client, file);
+    client::MeshReceiver receiver;
+    if (const auto done = client.set_resolution(level, receiver.handlers()); !done) stop(done.error());
+    print_codec({"Draco, 14 bits", bench::encode_draco, bench::decode_draco}, receiver.mesh());
+    print_codec({"meshoptimizer, 14 bits", bench::encode_meshoptimizer, bench::decode_meshoptimizer}, receiver.mesh());
 }
 
 /// Bytes of the server's memory for each of several readers that take one block and then none.
@@ -171,8 +238,7 @@ double cost_of_stalled(const std::string& server, const std::string& pid, const 
     std::vector<std::thread> readers;
     for (int i = 0; i < kStalled; ++i) {
         readers.emplace_back([&] {
-            auto client = client::MeshingClient::connect(server);
-            if (!client) stop(client.error());
+            client::MeshingClient client = connected(server);
             bool first = true;
             client::EventHandlers handlers;
             handlers.on_block = [&](const RecordBlock&) -> Status {
@@ -180,7 +246,7 @@ double cost_of_stalled(const std::string& server, const std::string& pid, const 
                 over.wait();
                 return Done{};
             };
-            if (const auto done = client->set_resolution(request, handlers); !done) stop(done.error());
+            if (const auto done = client.set_resolution(request, handlers); !done) stop(done.error());
         });
     }
     begun.wait();
@@ -199,11 +265,10 @@ int main(int argc, char** argv) {
         return 2;
     }
     const std::string server = argv[1], session = argv[2], pid = argv[3];
-    auto client = client::MeshingClient::connect(server);
-    if (!client) stop(client.error());
+    client::MeshingClient client = connected(server);
     v1::SetResolutionRequest coarsest;
     coarsest.set_session(session);
-    const auto made = client->set_resolution(coarsest);
+    const auto made = client.set_resolution(coarsest);
     if (!made) stop(made.error());
     std::printf(
         "| Encoding | Faces | Payload, MB | First stream, MB/s | MB/s, median of %d | First block, ms: first, median, most |"
@@ -212,11 +277,11 @@ int main(int argc, char** argv) {
         kRounds);
     for (const auto encoding : {v1::FLOAT64, v1::FLOAT32, v1::QUANTISED}) {
         const v1::SetResolutionRequest request = all_records(session, encoding, *made);
-        const Stream first = receive(*client, request);
+        const Stream first = receive(client, request);
         std::vector<double> rates, waits, ends;
         const double server_before = processor_seconds(pid), client_before = processor_seconds();
         for (int round = 0; round < kRounds; ++round) {
-            const Stream again = receive(*client, request);
+            const Stream again = receive(client, request);
             rates.push_back(again.payload / again.last_block / 1e6);
             ends.push_back(again.end * 1e3);
             waits.push_back(again.first_block * 1e3);
@@ -230,5 +295,5 @@ int main(int argc, char** argv) {
                     *std::max_element(waits.begin(), waits.end()), first.end * 1e3, median(ends), server_cost, client_cost,
                     cost_of_stalled(server, pid, request) / 1e6);
     }
-    print_all_meshes(*client, session, made->id(), std::clamp(30'000U, made->faces_min(), made->faces_max()));
+    print_all_meshes(client, session, made->id(), std::clamp(30'000U, made->faces_min(), made->faces_max()));
 }

@@ -80,7 +80,10 @@ Status LevelParts::begin_errand() {
             Made made{encoded, {}, {}};
             if (!encoded) {
                 made.encoded = levels->encoded(choice);
-                if (with_base) made.base = wire::pack_base_mesh(levels->mrr(), made.encoded->grid());
+                if (with_base) {
+                    const auto base = made.encoded->base();
+                    made.base = wire::packed_base_mesh(levels->mrr(), made.encoded->grid(), base->bytes, base->max_error);
+                }
             }
             if (made.base || first == last) return made;  // the base mesh leaves before the first block is made
             Expected<service::EncodedRecords::Block> block = made.encoded->find_or_make(first, last);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "vsplit/mrr/base_codec.h"
+
 namespace vsplit::service {
 namespace {
 
@@ -21,6 +23,16 @@ bool usually_begins_at(std::size_t record) { return record == kFirst || record %
 
 EncodedRecords::EncodedRecords(const MultiresMesh& mrr, const BoundingBox& box, const EncodingChoice& choice)
     : mrr_(mrr), grid_(*PositionGrid::over(box, choice)), codec_(grid_) {}
+
+std::shared_ptr<const EncodedBase> EncodedRecords::base() {
+    std::call_once(base_made_, [this] {
+        double largest = 0;
+        for_each_position(mrr_, [&largest](const Vec3& p) { largest = std::max(largest, p.cwiseAbs().maxCoeff()); });
+        base_ = std::make_shared<const EncodedBase>(
+            EncodedBase{pack_base(rounded_base(), mrr_.ghosts, grid_), grid_.max_error(largest)});
+    });
+    return base_;
+}
 
 EncodedRecords::Block EncodedRecords::find(std::size_t first, std::size_t last) const {
     const std::lock_guard lock(mutex_);
@@ -48,11 +60,15 @@ Expected<EncodedRecords::Block> EncodedRecords::find_or_make(std::size_t first, 
     return block;
 }
 
+TriangleMesh EncodedRecords::rounded_base() const {
+    TriangleMesh base = mrr_.base;
+    for (Vec3& position : base.positions) position = grid_.snap(position);
+    return base;
+}
+
 Status EncodedRecords::move_to(std::size_t record) {
     if (!mesh_) {
-        TriangleMesh base = mrr_.base;
-        for (Vec3& position : base.positions) position = grid_.snap(position);
-        Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(std::move(base), mrr_.ghosts);
+        Expected<ProgressiveMesh> mesh = ProgressiveMesh::from_base(rounded_base(), mrr_.ghosts);
         if (!mesh) return mesh.error();
         mesh_ = *std::move(mesh);
     }

@@ -78,6 +78,35 @@ def cut_after(stream, kind, times):
     return call
 
 
+def cut_before(stream, kind, times):
+    """The same, which breaks in place of that event."""
+
+    def call(request):
+        nonlocal times
+        for event in stream(request):
+            if times and event.WhichOneof("event") == kind:
+                times -= 1
+                raise Cut()
+            yield event
+
+    return call
+
+
+class Counted:
+    """The rpc `stream`, with the bytes that it brought and the keyframes among them."""
+
+    def __init__(self, stream):
+        self._stream, self.bytes, self.keyframes = stream, 0, 0
+
+    def __call__(self, request):
+        keyframe = False
+        for event in self._stream(request):
+            self.bytes += event.ByteSize()
+            self.keyframes += event.base_mesh.first_record != 0 and not keyframe  # it comes in parts
+            keyframe |= event.base_mesh.first_record != 0
+            yield event
+
+
 class ClientTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -309,6 +338,54 @@ class ClientTest(unittest.TestCase):
         finally:
             self.client._stub.SetResolution = stream
         self.client.delete(session)
+
+    def test_a_far_jump_takes_a_keyframe_where_that_is_less_to_receive(self):
+        session = self.client.upload(box_obj(5))  # with a ghost and regions
+        made = self.client.improve(session, faces=500, subdivision_size=0.03).representation
+        self.assertGreater(made.faces_max, 4 * made.faces_min)
+        stream = self.client._stub.SetResolution
+        received = {}
+        try:
+            for keyframes in (False, True):
+                self.client._stub.SetResolution = counted = Counted(stream)
+                mesh = self.client.open(session, made.id, made.faces_max, keyframes=keyframes)
+                received[keyframes] = counted.bytes
+                self.assertEqual(counted.keyframes, keyframes)
+                self.check_is_what_download_gives(mesh, session, made.faces_max)
+            self.assertLess(received[True], 0.8 * received[False])
+
+            # A jump up keeps what was there; what lies between comes when it is asked for, and goes on in records.
+            self.client._stub.SetResolution = counted = Counted(stream)
+            mesh = self.client.open(session, made.id, made.faces_min, keyframes=True)
+            far = made.faces_max - 400
+            self.check_is_what_download_gives(mesh, session, far)
+            self.assertEqual(counted.keyframes, 1)
+            self.check_is_what_download_gives(mesh, session, made.faces_max)
+            self.assertEqual(counted.keyframes, 1)
+            before = counted.bytes
+            for faces in (far, made.faces_max, made.faces_max - 200, made.faces_min):
+                self.check_is_what_download_gives(mesh, session, faces)
+            self.assertEqual(counted.bytes, before)
+            self.check_is_what_download_gives(mesh, session, made.faces_min + 50)
+            self.assertGreater(counted.bytes, before)
+
+            # One that breaks before its regions came is left; the figures of a coarser resolution leave nothing.
+            self.client._stub.SetResolution = cut_before(stream, "regions", 2)
+            mesh = self.client.open(session, made.id, made.faces_max, keyframes=True)
+            self.assertEqual(mesh.figures_at(made.faces_min).faces, made.faces_min)
+            self.check_is_what_download_gives(mesh, session, made.faces_max)
+        finally:
+            self.client._stub.SetResolution = stream
+        quantised = self.client.open(session, made.id, made.faces_max, encoding="quantised", bits=14, keyframes=True)
+        np.testing.assert_array_equal(quantised.at(made.faces_min)[1], mesh.at(made.faces_min)[1])
+        self.client.delete(session)
+
+    def check_is_what_download_gives(self, mesh, session, faces):
+        points, triangles, regions = read_ply_regions(self.client.download(session, mesh, faces, "ply"))
+        got = mesh.at(faces)
+        np.testing.assert_array_equal(got[0], points)
+        np.testing.assert_array_equal(got[1], triangles)
+        np.testing.assert_array_equal(mesh.regions_at(faces), regions)
 
     def test_files_have_regions_sets_and_a_unit(self):
         with tempfile.TemporaryDirectory() as folder:

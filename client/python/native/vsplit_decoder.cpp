@@ -27,6 +27,7 @@ struct vsplit_decoder {
     std::string error;
     vsplit::RecordCodec codec;
     vsplit::MultiresMesh held;
+    std::uint32_t first_record = 0;  // the first of held.records; not 0 on a keyframe
     std::optional<vsplit::ProgressiveMesh> mesh;
     TriangleMesh visible;
     std::optional<vsplit::LengthUnit> unit;
@@ -40,6 +41,7 @@ struct vsplit_decoder {
         held = {std::move(base), {}, ghosts, ghost_faces, {}};
         mesh = *std::move(made);
         codec = vsplit::RecordCodec(grid);
+        first_record = 0;
         unit.reset();
         show_what_is_reached();
         return Done{};
@@ -60,12 +62,14 @@ struct vsplit_decoder {
         return mesh->refine(held.records.slice(mesh->records(), records - mesh->records()));
     }
 
+    std::uint32_t records_held() const { return first_record + static_cast<std::uint32_t>(held.records.size()); }
+
     Status append(const vsplit::RecordBlock& block) {
-        if (block.first != held.records.size()) {
-            return Error{Cause::kOutOfOrder,
-                         "a block begins at record " + std::to_string(block.first) + ", expected is " +
-                             std::to_string(held.records.size()),
-                         ""};
+        if (block.first != records_held()) {
+            return Error{
+                Cause::kOutOfOrder,
+                "a block begins at record " + std::to_string(block.first) + ", expected is " + std::to_string(records_held()),
+                ""};
         }
         if (Status gone = go_to(held.records.size()); !gone) return gone;
         if (Status decoded = codec.decode(block, *mesh, &held.records); !decoded) return decoded;
@@ -135,12 +139,20 @@ const char* vsplit_decoder_error(const vsplit_decoder* decoder) { return decoder
 
 int vsplit_decoder_begin(vsplit_decoder* decoder, const double* positions, std::uint32_t vertices, const std::uint32_t* indices,
                          std::uint32_t faces, std::uint32_t ghosts) {
+    return vsplit_decoder_begin_keyframe(decoder, positions, vertices, indices, faces, ghosts, 0);
+}
+
+int vsplit_decoder_begin_keyframe(vsplit_decoder* decoder, const double* positions, std::uint32_t vertices,
+                                  const std::uint32_t* indices, std::uint32_t faces, std::uint32_t ghosts,
+                                  std::uint32_t first_record) {
     return guarded(decoder, [&] {
         TriangleMesh base;
         for (std::size_t v = 0; v < vertices; ++v)
             base.positions.emplace_back(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]);
         for (std::size_t f = 0; f < faces; ++f) base.faces.push_back({indices[3 * f], indices[3 * f + 1], indices[3 * f + 2]});
-        return decoder->begin(std::move(base), ghosts, PositionGrid());
+        Status begun = decoder->begin(std::move(base), ghosts, PositionGrid());
+        if (begun) decoder->first_record = first_record;
+        return begun;
     });
 }
 
@@ -181,9 +193,7 @@ int vsplit_decoder_show(vsplit_decoder* decoder, std::uint32_t faces) {
 }
 
 std::uint32_t vsplit_decoder_faces_held(const vsplit_decoder* decoder) { return decoder->mesh ? decoder->held.faces_max() : 0; }
-std::uint32_t vsplit_decoder_records_held(const vsplit_decoder* decoder) {
-    return static_cast<std::uint32_t>(decoder->held.records.size());
-}
+std::uint32_t vsplit_decoder_records_held(const vsplit_decoder* decoder) { return decoder->records_held(); }
 std::uint32_t vsplit_decoder_vertices(const vsplit_decoder* decoder) { return decoder->visible.vertex_count(); }
 std::uint32_t vsplit_decoder_faces(const vsplit_decoder* decoder) { return decoder->visible.face_count(); }
 

@@ -23,6 +23,10 @@ const char* vsplit_decoder_error(const vsplit_decoder* decoder);
 int vsplit_decoder_begin(vsplit_decoder* decoder, const double* positions, uint32_t vertices, const uint32_t* indices,
                          uint32_t faces, uint32_t ghosts);
 
+/// Begins with a keyframe, a mesh of FLOAT64 that the first `first_record` records are in: it goes on with that record.
+int vsplit_decoder_begin_keyframe(vsplit_decoder* decoder, const double* positions, uint32_t vertices, const uint32_t* indices,
+                                  uint32_t faces, uint32_t ghosts, uint32_t first_record);
+
 /// Begins with a packed one: `bits`, `origin` (3 doubles) and `step` of QUANTISED, 0, 0 and 0 of FLOAT32.
 int vsplit_decoder_begin_packed(vsplit_decoder* decoder, const uint8_t* bytes, size_t size, uint32_t vertices, uint32_t faces,
                                 uint32_t ghosts, uint32_t encoding, uint32_t bits, const double* origin, double step);
@@ -42,7 +46,8 @@ int vsplit_decoder_add_set(vsplit_decoder* decoder, const char* name, const uint
 /// Shows the resolution nearest to `faces` of those that have come.
 int vsplit_decoder_show(vsplit_decoder* decoder, uint32_t faces);
 
-/// Faces of the finest resolution and records that have come; vertices and faces of what is shown.
+/// Faces of the finest resolution and records that have come, those that a keyframe has in it too; vertices and faces of what is
+/// shown.
 uint32_t vsplit_decoder_faces_held(const vsplit_decoder* decoder);
 uint32_t vsplit_decoder_records_held(const vsplit_decoder* decoder);
 uint32_t vsplit_decoder_vertices(const vsplit_decoder* decoder);

@@ -112,12 +112,13 @@ class Client:
         request = v1.ControlRequest(session=session, options=message_of(v1.ControlOptions, options))
         return self._run(self._stub.Control, request, (source, source_faces), encoding, bits, on_progress, timeout)
 
-    def open(self, session, representation="", faces=None, *, encoding="float64", bits=0):
+    def open(self, session, representation="", faces=None, *, encoding="float64", bits=0, keyframes=False):
         """A Mesh of a representation that is there, by default the session's newest, at the resolution `faces`, by default the one
-        that it was made for."""
+        that it was made for. `keyframes`: as Mesh has it."""
         held = self.session(session).representations
         made = next((each for each in held[::-1] if representation in ("", each.id)), None)
         mesh = Mesh(self, session, message_of(v1.SetResolutionRequest, {"encoding": encoding, "quantisation_bits": bits}))
+        mesh.keyframes = keyframes
         wanted = made.faces if made and faces is None else faces or 0
         mesh.representation = self._fetch(mesh, wanted, made.id if made else representation)
         return mesh

@@ -27,7 +27,7 @@ def _load():
         ("new", pointer, []),
         ("free", None, [pointer]),
         ("error", _BYTES, [pointer]),
-        ("begin", ctypes.c_int, [pointer, doubles, _U32, indices, _U32, _U32]),
+        ("begin_keyframe", ctypes.c_int, [pointer, doubles, _U32, indices, _U32, _U32, _U32]),
         ("begin_packed", ctypes.c_int,
          [pointer, _BYTES, ctypes.c_size_t, _U32, _U32, _U32, _U32, _U32, ctypes.c_double * 3, ctypes.c_double]),
         ("load", ctypes.c_int, [pointer, _BYTES, ctypes.c_size_t]),
@@ -72,8 +72,10 @@ class Decoder:
         if failed:
             raise CorruptError(_library.vsplit_decoder_error(self._decoder).decode())
 
-    def begin(self, positions, indices, ghosts):
-        self._check(_library.vsplit_decoder_begin(self._decoder, positions, len(positions), indices, len(indices), ghosts))
+    def begin(self, positions, indices, ghosts, first_record=0):
+        """`first_record`: of a keyframe, the first record that it has not in it yet."""
+        self._check(_library.vsplit_decoder_begin_keyframe(
+            self._decoder, positions, len(positions), indices, len(indices), ghosts, first_record))
 
     def begin_packed(self, packed, part):
         """`part`: any BaseMesh message of the stream."""

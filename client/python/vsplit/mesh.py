@@ -82,16 +82,22 @@ class Mesh(_Shown):
     """Made by Client.improve, control and open; fetches what is missing for a resolution.
 
     `representation`: the vsplit.v1.Representation at the resolution that it was made for. `max_error`: no coordinate of the stream
-    is further from the exact one.
+    is further from the exact one. `keyframes`, which may be set: a far jump of a "float64" stream may bring the mesh it leads to
+    in place of the records between, where that is less to send. What was held before is kept; the resolutions between come when
+    they are asked for.
     """
 
     def __init__(self, client, session, layout):
         """`layout`: a SetResolutionRequest with the encoding of the stream."""
         self._client, self._session, self._layout = client, session, layout
         self._decoder = Decoder()
+        self._before = None  # the decoder of what was held before a keyframe
+        self._faces_min = 0  # of a keyframe, the coarsest resolution held
+        self._keyframe_is_whole = True
         self._begin_stream()
         self.representation = None
         self.max_error = 0.0
+        self.keyframes = False
 
     @property
     def faces_max(self):
@@ -108,17 +114,25 @@ class Mesh(_Shown):
 
     def _show(self, faces):
         wanted = self.representation.faces if faces is None else faces
+        if wanted < self._faces_min:
+            self._leave_keyframe()
         if wanted > self._decoder.faces_held or not self._decoder.faces_held:
             self._client._fetch(self, wanted, self.representation.id)
         self._decoder.show(wanted)
 
     def _request(self, representation, faces):
         """Who holds no record yet begins anew: the base mesh or the regions after it may have come in part."""
+        if self._before and not self._keyframe_is_whole:
+            self._leave_keyframe()
         request = v1.SetResolutionRequest()
         request.CopyFrom(self._layout)
         request.session, request.representation, request.faces = self._session, representation, faces
         request.resume_from = self._decoder.records_held
+        request.keyframe = self.keyframes
         return request
+
+    def _leave_keyframe(self):
+        self._decoder, self._before, self._faces_min = self._before, None, 0
 
     def _begin_stream(self):
         self._parts, self._region_parts = [], []
@@ -126,6 +140,8 @@ class Mesh(_Shown):
     def _take(self, event):
         """The Representation where the event is one."""
         kind = event.WhichOneof("event")
+        if kind in ("representation", "record_block"):
+            self._keyframe_is_whole = True  # regions come before
         if kind == "representation":
             return event.representation
         if kind == "base_mesh":
@@ -160,5 +176,15 @@ class Mesh(_Shown):
                 return
             if len(positions) > part.vertices or len(indices) > part.faces:
                 raise CorruptError("base mesh: more data than was announced")
-            self._decoder.begin(positions, indices, part.ghosts)
+            self._begin(positions, indices, part.ghosts, part.first_record)
         self._parts = []
+
+    def _begin(self, positions, indices, ghosts, first_record):
+        """With a keyframe what is held is put by."""
+        decoder = Decoder() if first_record else self._decoder
+        decoder.begin(positions, indices, ghosts, first_record)
+        if not first_record:
+            return
+        self._before, self._decoder = self._before or self._decoder, decoder
+        self._faces_min = decoder.faces_held
+        self._keyframe_is_whole = False
