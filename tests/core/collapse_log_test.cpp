@@ -73,7 +73,7 @@ protected:
         kept_ = mesh_.origin(star.ie);
     }
     void move(std::uint32_t v, const Vec3& to) {
-        log_.record_move(v, mesh_.position(v));
+        log_.record_move(mesh_, v);
         mesh_.move(v, to);
     }
     [[nodiscard]] std::uint32_t far_away() const {

@@ -171,7 +171,7 @@ void EdgeFlipper::flip_open_edges() {
     while (!open_.empty()) {
         const HalfEdge h = open_.back();
         open_.pop_back();
-        if (!flip_if_better(h)) continue;
+        if ((within_ != nullptr && !within_->may_turn(mesh_, h)) || !flip_if_better(h)) continue;
         const HalfEdge g = mesh_.twin(h);
         for (const HalfEdge side : {next(h), prev(h), next(g), prev(g)}) open_.push_back(side);
         changed_.push_back(face_of(h));
@@ -188,11 +188,11 @@ bool EdgeFlipper::is_as_refused(HalfEdge h) const {
     return std::max({last(h), last(g), last(prev(h)), last(prev(g))}) <= *looked_at_all_;
 }
 
-void EdgeFlipper::flip_all() {
-    const std::uint32_t start = mesh_.clock();
-    changed_.clear();
-    for (HalfEdge h = mesh_.half_edge_count(); h-- > 0;) {
-        if (!mesh_.removed(h) && mesh_.edge_of(h) == h) edges_.push_back(h);
+/// The edges of `faces`, by the number they go by, that `take` wants.
+template <class Take>
+void EdgeFlipper::flip_each(MeshParts::Faces faces, Take take) {
+    for (HalfEdge h = 3 * faces.end; h-- > 3 * faces.begin;) {
+        if (!mesh_.removed(h) && mesh_.edge_of(h) == h && take(h)) edges_.push_back(h);
     }
     for (; !edges_.empty(); edges_.pop_back()) {
         if (is_as_refused(edges_.back())) continue;
@@ -200,6 +200,23 @@ void EdgeFlipper::flip_all() {
         flip_open_edges();
     }
     changed_.clear();
+}
+
+void EdgeFlipper::flip_all() {
+    const std::uint32_t start = mesh_.clock();
+    flip_each({0, mesh_.half_edge_count() / 3}, [](HalfEdge) { return true; });
+    looked_at_all_ = start;
+}
+
+void EdgeFlipper::flip_within(const MeshParts& parts, std::size_t part, std::optional<std::uint32_t> since) {
+    looked_at_all_ = since;
+    within_ = &parts;
+    flip_each(parts.faces(part), [&](HalfEdge h) { return parts.may_turn(mesh_, h); });
+    within_ = nullptr;
+}
+
+void EdgeFlipper::flip_between(const MeshParts& parts, std::uint32_t start) {
+    flip_each({0, mesh_.half_edge_count() / 3}, [&](HalfEdge h) { return !parts.may_turn(mesh_, h); });
     looked_at_all_ = start;
 }
 

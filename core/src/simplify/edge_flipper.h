@@ -9,6 +9,7 @@
 #include "simplify/guards.h"
 #include "simplify/half_edge_mesh.h"
 #include "simplify/local_state.h"
+#include "simplify/mesh_parts.h"
 #include "simplify/polish_limits.h"
 
 namespace vsplit {
@@ -29,6 +30,14 @@ public:
     /// looked at before and has not changed since is left out: it would be refused again. O(faces).
     void flip_all();
 
+    /// The same within one part and, when that is done in all of them, between them. `since`: looked_at_all() of
+    /// who flips between them; `start`: the mesh's clock before.
+    void flip_within(const MeshParts& parts, std::size_t part, std::optional<std::uint32_t> since);
+    void flip_between(const MeshParts& parts, std::uint32_t start);
+
+    /// The mesh's clock when all edges began to be looked at last.
+    [[nodiscard]] std::optional<std::uint32_t> looked_at_all() const { return looked_at_all_; }
+
     /// Among the edges of v and of its ring, and again around what was flipped. The faces that changed are in `changed_faces()`.
     void flip_around(std::uint32_t v);
 
@@ -45,6 +54,8 @@ public:
 private:
     struct Quad;
 
+    template <class Take>
+    void flip_each(MeshParts::Faces faces, Take take);
     void flip_open_edges();
     [[nodiscard]] double left_stretch(HalfEdge h) const;
     [[nodiscard]] bool flip_if_better(HalfEdge h);
@@ -69,7 +80,8 @@ private:
     const PolishLimits limits_;
     std::vector<HalfEdge> edges_;                 // of flip_all, last first
     std::vector<HalfEdge> open_;                  // edges to look at, last first
-    std::optional<std::uint32_t> looked_at_all_;  // the mesh's clock when flip_all began last
+    std::optional<std::uint32_t> looked_at_all_;
+    const MeshParts* within_ = nullptr;  // flips may not leave their part
     std::vector<std::uint32_t> changed_;
 };
 
