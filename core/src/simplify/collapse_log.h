@@ -32,7 +32,14 @@ public:
 
     void clear() { *this = {}; }
 
-    /// A log of what comes next in a part of `mesh`, kept beside those of other parts. `append` them before this one is used again.
+    /// Of a fork: its own collapses.
+    [[nodiscard]] std::size_t size_of_fork() const { return entries_.size(); }
+
+    /// What comes next are collapses: moves in vain are dropped, which could not be told from others once vertices go.
+    void end_step(const HalfEdgeMesh& mesh) { keep_net_moves(mesh); }
+
+    /// A log of what comes next in a part of `mesh`, kept beside those of other parts. `append` them before this one is used
+    /// again.
     [[nodiscard]] CollapseLog fork(const HalfEdgeMesh& mesh);
 
     /// As if what a fork tells had been recorded here. \pre what parts did does not depend on the order they come in.
@@ -73,7 +80,7 @@ private:
     std::uint32_t stayed_ = kNone;  // the vertex that the last collapse left
     std::vector<Edits> edits_;      // of the last collapses; there were none before the others
     std::vector<HalfEdge> flips_;
-    std::vector<VertexMove> moves_;        // positions are those before
+    std::vector<VertexMove> moves_;                         // positions are those before
     std::shared_ptr<std::vector<std::uint32_t>> moved_in_;  // per vertex: collapses made when it was moved last
     std::size_t before_ = 0;                                // of a fork: collapses of what it was forked from
 };

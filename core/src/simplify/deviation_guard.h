@@ -20,7 +20,8 @@ namespace vsplit {
 /// faces are tried at their apex, their middle and the middle of one side, long ones and fins at more places. Both are samples:
 /// the limit is to be a little under what is promised, and the result is measured afterwards (`measure_deviation`).
 ///
-/// A copy keeps the same points, not others: two may be used at the same time, each for faces that the other has nothing to do with.
+/// A copy keeps the same points, not others: two may be used at the same time, each for faces that the other has nothing to do
+/// with.
 class DeviationGuard {
 public:
     /// A face as it would be. Its side (b, c) was there before, in a face of normal `old_normal` (unit, or zero when not known):

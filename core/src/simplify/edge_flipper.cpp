@@ -208,11 +208,9 @@ void EdgeFlipper::flip_all() {
     looked_at_all_ = start;
 }
 
-void EdgeFlipper::flip_within(const MeshParts& parts, std::size_t part, std::optional<std::uint32_t> since) {
+void EdgeFlipper::flip_within(MeshParts::Faces part, std::optional<std::uint32_t> since) {
     looked_at_all_ = since;
-    within_ = &parts;
-    flip_each(parts.faces(part), [&](HalfEdge h) { return parts.may_turn(mesh_, h); });
-    within_ = nullptr;
+    flip_each(part, [this](HalfEdge h) { return within_->may_turn(mesh_, h); });
 }
 
 void EdgeFlipper::flip_between(const MeshParts& parts, std::uint32_t start) {

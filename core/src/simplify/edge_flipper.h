@@ -18,21 +18,24 @@ namespace vsplit {
 /// and a face there is to be mended, and no bound breaks that held. Tells the log.
 class EdgeFlipper {
 public:
-    EdgeFlipper(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits)
+    /// With `within` no flip leaves a part of it.
+    EdgeFlipper(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits,
+                const MeshParts* within = nullptr)
         : mesh_(mesh),
           state_(state),
           log_(log),
           guard_(guards.surface),
           creases_(mesh, state, guards.creases, limits.crease_cosine),
-          limits_(limits) {}
+          limits_(limits),
+          within_(within) {}
 
     /// All over the mesh, and again around what was flipped. Ends, since each flip betters the worse of two faces. What was
     /// looked at before and has not changed since is left out: it would be refused again. O(faces).
     void flip_all();
 
-    /// The same within one part and, when that is done in all of them, between them. `since`: looked_at_all() of
+    /// The same within one part of those given, and when that is done in all of them between them. `since`: looked_at_all() of
     /// who flips between them; `start`: the mesh's clock before.
-    void flip_within(const MeshParts& parts, std::size_t part, std::optional<std::uint32_t> since);
+    void flip_within(MeshParts::Faces part, std::optional<std::uint32_t> since);
     void flip_between(const MeshParts& parts, std::uint32_t start);
 
     /// The mesh's clock when all edges began to be looked at last.
@@ -78,10 +81,10 @@ private:
     DeviationGuard* const guard_;
     CreaseReplacement creases_;
     const PolishLimits limits_;
-    std::vector<HalfEdge> edges_;                 // of flip_all, last first
-    std::vector<HalfEdge> open_;                  // edges to look at, last first
+    const MeshParts* const within_;
+    std::vector<HalfEdge> edges_;  // of flip_all, last first
+    std::vector<HalfEdge> open_;   // edges to look at, last first
     std::optional<std::uint32_t> looked_at_all_;
-    const MeshParts* within_ = nullptr;  // flips may not leave their part
     std::vector<std::uint32_t> changed_;
 };
 

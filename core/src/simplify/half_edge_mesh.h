@@ -86,8 +86,8 @@ public:
         touch_around(v);
     }
 
-    /// Counts flips, moves and calls of touch_around. Threads that change parts of the mesh at the same time share it: what a part
-    /// changes is later than what the clock showed before, to the thread that looked.
+    /// Counts flips, moves and calls of touch_around. Threads that change parts of the mesh at the same time share it: what a
+    /// part changes is later than what the clock showed before, to the thread that looked.
     [[nodiscard]] std::uint32_t clock() const { return clock_.load(std::memory_order_relaxed); }
     /// The clock when a face at v changed last by one of these. A collapse leaves it to its caller, who has the ring at hand.
     [[nodiscard]] std::uint32_t changed_at(std::uint32_t v) const { return changed_at_[v]; }

@@ -1,13 +1,9 @@
 #include "simplify/polish.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
-
 #include <algorithm>
 #include <span>
-#include <utility>
-#include <vector>
+
+#include "simplify/log_in_parts.h"
 
 namespace vsplit {
 namespace {
@@ -32,36 +28,15 @@ bool Polisher::is_as_tried(std::uint32_t v, std::uint32_t start) const {
 }
 
 struct Polisher::Hand {
-    std::optional<DeviationGuard> surface;
-    std::optional<CreaseGuard> creases;
+    OwnGuards guards;
     EdgeFlipper flipper;
     VertexMover mover;
 
-    Hand(Polisher& of, CollapseLog& log)
-        : surface(of.guards_.surface != nullptr ? std::optional(*of.guards_.surface) : std::nullopt),
-          creases(of.guards_.creases != nullptr ? std::optional(*of.guards_.creases) : std::nullopt),
-          flipper(of.mesh_, of.state_, log, guards(), of.limits_),
-          mover(of.mesh_, of.state_, log, guards(), of.limits_) {}
-
-    [[nodiscard]] Guards guards() { return {surface ? &*surface : nullptr, creases ? &*creases : nullptr}; }
+    Hand(Polisher& of, CollapseLog& log, const MeshParts& parts)
+        : guards(of.guards_),
+          flipper(of.mesh_, of.state_, log, guards.all(), of.limits_, &parts),
+          mover(of.mesh_, of.state_, log, guards.all(), of.limits_) {}
 };
-
-/// `work(hand, part)` for each part on some thread; then the log has what all did, part by part.
-template <class Work>
-void Polisher::in_parts(const MeshParts& parts, Work work) {
-    std::vector<CollapseLog> logs;
-    for (std::size_t part = 0; part < parts.count(); ++part) logs.push_back(log_.fork(mesh_));
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, parts.count(), 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-            for (std::size_t part = range.begin(); part < range.end(); ++part) {
-                Hand hand(*this, logs[part]);
-                work(hand, part);
-            }
-        },
-        tbb::simple_partitioner());
-    for (CollapseLog& log : logs) log_.append(std::move(log));
-}
 
 void Polisher::flip_all() {
     const MeshParts parts(mesh_, shifted_ = !shifted_);
@@ -70,7 +45,9 @@ void Polisher::flip_all() {
 
 void Polisher::flip_in_parts(const MeshParts& parts) {
     const std::uint32_t start = mesh_.clock();
-    in_parts(parts, [&](Hand& hand, std::size_t part) { hand.flipper.flip_within(parts, part, flipper_.looked_at_all()); });
+    log_in_parts(parts, mesh_, log_, [&](std::size_t part, CollapseLog& log) {
+        Hand(*this, log, parts).flipper.flip_within(parts.faces(part), flipper_.looked_at_all());
+    });
     flipper_.flip_between(parts, start);
 }
 
@@ -84,8 +61,9 @@ void Polisher::move_in_parts(const MeshParts& parts, const ExecutionContext& con
             if (!(last && is_as_tried(vertices[n], *last))) move(mover, vertices[n]);
         }
     };
-    in_parts(parts, [&](Hand& hand, std::size_t part) {
-        hand.flipper.flip_within(parts, part, flipper_.looked_at_all());
+    log_in_parts(parts, mesh_, log_, [&](std::size_t part, CollapseLog& log) {
+        Hand hand(*this, log, parts);
+        hand.flipper.flip_within(parts.faces(part), flipper_.looked_at_all());
         move_each(parts.interior(part), hand.mover);
     });
     flipper_.flip_between(parts, start);

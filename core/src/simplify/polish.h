@@ -11,8 +11,9 @@
 
 namespace vsplit {
 
-/// Betters the shape of a mesh's faces without changing their number: rounds of flips and moves. Parts of a large mesh are polished
-/// beside each other (MeshParts), then what lies between them; in a fixed order each, so the same for any number of threads.
+/// Betters the shape of a mesh's faces without changing their number: rounds of flips and moves. Parts of a large mesh are
+/// polished beside each other (MeshParts), then what lies between them; in a fixed order each, so the same for any number of
+/// threads.
 class Polisher {
 public:
     Polisher(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits)
@@ -32,19 +33,11 @@ public:
     /// Mends what breaks a bound; see Mender.
     void mend(int rounds, bool may_move, const ExecutionContext& context) { mender_.mend(rounds, may_move, context); }
 
-    /// Flips after a collapse to v; see EdgeFlipper.
-    [[nodiscard]] const std::vector<std::uint32_t>& flip_around(std::uint32_t v) {
-        flipper_.flip_around(v);
-        return flipper_.changed_faces();
-    }
-
 private:
     /// When a kind of move began its last round, by the mesh's clock.
     using Start = std::optional<std::uint32_t>;
     /// What one part is worked on with.
     struct Hand;
-    template <class Work>
-    void in_parts(const MeshParts& parts, Work work);
     template <class Move>
     void move_all(const ExecutionContext& context, Start& last, Move move);
     template <class Move>
