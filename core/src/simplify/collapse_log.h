@@ -32,9 +32,6 @@ public:
 
     void clear() { *this = {}; }
 
-    /// Of a fork: its own collapses.
-    [[nodiscard]] std::size_t size_of_fork() const { return entries_.size(); }
-
     /// What comes next are collapses: moves in vain are dropped, which could not be told from others once vertices go.
     void end_step(const HalfEdgeMesh& mesh) { keep_net_moves(mesh); }
 

@@ -58,7 +58,8 @@ private:
     struct Quad;
 
     template <class Take>
-    void flip_each(MeshParts::Faces faces, Take take);
+    void note_edges(MeshParts::Faces faces, Take take);
+    void flip_noted_edges();
     void flip_open_edges();
     [[nodiscard]] double left_stretch(HalfEdge h) const;
     [[nodiscard]] bool flip_if_better(HalfEdge h);

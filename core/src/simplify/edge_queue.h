@@ -50,6 +50,14 @@ public:
     /// The edge of largest priority, or kNone when there is none.
     [[nodiscard]] HalfEdge top();
 
+    /// visit(priority) for each edge that is there.
+    template <class Visit>
+    void for_each(Visit visit) const {
+        for (const double priority : levels_[0].best) {
+            if (priority >= 0) visit(priority);
+        }
+    }
+
     [[nodiscard]] double priority(HalfEdge edge) const { return levels_[0].best[edge - first_]; }
 
 private:

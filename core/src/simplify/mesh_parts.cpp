@@ -9,7 +9,7 @@ namespace vsplit {
 namespace {
 
 /// Live faces a part: so many that what lies between parts is little, so few that there are parts for many threads.
-constexpr std::uint32_t kFacesAPart = 16384;
+constexpr std::uint32_t kFacesAPart = 12288;
 
 /// Parts begin at multiples of so many faces: marks of half-edges that share a byte are of one part.
 constexpr std::uint32_t kAlignment = 4;
@@ -89,6 +89,8 @@ void MeshParts::list_vertices(const HalfEdgeMesh& mesh) {
         if (!is_interior(v) && mesh.outgoing(v) != kNone) between_.push_back(v);
     }
     for (std::size_t part = 0; part < count(); ++part) first_interior_[part + 1] += first_interior_[part];
+    const auto deep = static_cast<double>(std::count(depth_.begin(), depth_.end(), Depth::kDeep));
+    deep_share_ = deep / static_cast<double>(first_interior_.back() + between_.size());
     interior_.resize(first_interior_.back());
     std::vector<std::size_t> next(first_interior_.begin(), first_interior_.end() - 1);
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {

@@ -28,7 +28,8 @@ public:
         std::uint32_t begin = 0, end = 0;
     };
 
-    /// One part only where the mesh has few faces. With `shifted` the cuts go where else the middles of parts are. O(faces).
+    /// One part only, and nothing known of depths, where the mesh has few faces. With `shifted` the cuts go through the middles
+    /// of what are parts else. O(faces).
     MeshParts(const HalfEdgeMesh& mesh, bool shifted);
 
     [[nodiscard]] std::size_t count() const { return faces_.size(); }
@@ -37,6 +38,8 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> interior(std::size_t part) const {
         return std::span(interior_).subspan(first_interior_[part], first_interior_[part + 1] - first_interior_[part]);
     }
+    /// Of the vertices that are there.
+    [[nodiscard]] double deep_share() const { return deep_share_; }
     /// Vertices that are interior to no part, in order.
     [[nodiscard]] const std::vector<std::uint32_t>& between() const { return between_; }
     [[nodiscard]] Depth depth(std::uint32_t v) const { return depth_[v]; }
@@ -60,6 +63,7 @@ private:
     std::vector<std::uint32_t> owner_;  // of owned vertices: the part
     std::vector<std::uint32_t> interior_, between_;
     std::vector<std::size_t> first_interior_;
+    double deep_share_ = 0;
 };
 
 }  // namespace vsplit

@@ -73,7 +73,7 @@ void Polisher::move_in_parts(const MeshParts& parts, const ExecutionContext& con
 
 template <class Move>
 void Polisher::move_all(const ExecutionContext& context, Start& last, Move move) {
-    const MeshParts parts(mesh_, shifted_ = !shifted_);
+    const MeshParts parts = MeshParts(mesh_, shifted_ = !shifted_);
     if (parts.count() > 1) return move_in_parts(parts, context, last, move);
     flipper_.flip_all();
     const std::uint32_t start = mesh_.clock();

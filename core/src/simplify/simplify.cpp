@@ -15,8 +15,8 @@
 #include "simplify/collapse_log.h"
 #include "simplify/collapser.h"
 #include "simplify/half_edge_mesh.h"
-#include "simplify/log_in_parts.h"
 #include "simplify/mesh_parts.h"
+#include "simplify/parted_collapse.h"
 #include "simplify/polish.h"
 #include "simplify/settle_creases.h"
 
@@ -42,10 +42,6 @@ constexpr int kFinalMends = 8;
 
 /// Points of the source for each face asked for, to measure the deviation by.
 constexpr std::uint32_t kPointsAFace = 8;
-
-/// Of the collapses to the next checkpoint so many are made in parts, as far as those have room inside: the last ones even out
-/// where parts meet.
-constexpr double kShareInParts = 0.9;
 
 template <class Policy>
 class Simplifier {
@@ -287,34 +283,18 @@ private:
         return Done{};
     }
 
-    /// Each part loses as large a share of its faces.
+    /// Those that are deep in their part, as many as are theirs of the collapses to come. The rest makes things even: where parts
+    /// did more, by a second cut elsewhere, shape was worse (docs/profile.md).
     void collapse_in_parts(std::uint32_t faces) {
         const MeshParts parts(mesh_, shifted_ = !shifted_);
         if (parts.count() == 1 || !has_collapses_above(faces)) return;
         std::fill(refusals_.begin(), refusals_.end(), std::uint8_t{0});
-        const double share = kShareInParts * (mesh_.live_faces() - faces) / mesh_.live_faces();
-        log_.end_step(mesh_);
-        log_in_parts(parts, mesh_, log_, [&](std::size_t part, CollapseLog& log) {
-            collapse_part(parts, part, static_cast<std::size_t>(share * static_cast<double>(parts.interior(part).size())), log);
+        collapser_->queue() = EdgeQueue(0, 0);  // its memory goes to those of the parts
+        const double collapses = parts.deep_share() * (mesh_.live_faces() - faces) / 2;
+        PartedCollapse<Policy>(setting(), guards(), log_, parts, context_).run(static_cast<std::size_t>(collapses), [this] {
+            report_simplified();
         });
-        report_simplified();
-    }
-
-    /// So many edges of a part, as far as there are some to collapse.
-    void collapse_part(const MeshParts& parts, std::size_t part, std::size_t collapses, CollapseLog& log) {
-        OwnGuards guards(this->guards());
-        const MeshParts::Faces faces = parts.faces(part);
-        Collapser<Policy> collapser(setting(), guards.all(), log, &parts, faces);
-        for (HalfEdge h = 3 * faces.begin; h < 3 * faces.end; ++h) {
-            if (mesh_.removed(h) || mesh_.edge_of(h) != h) continue;
-            if (parts.is_deep(mesh_.origin(h)) && parts.is_deep(mesh_.target(h))) collapser.settle(h);
-        }
-        while (log.size_of_fork() < collapses) {
-            const HalfEdge edge = collapser.queue().top();
-            if (edge == kNone) return;
-            collapser.collapse(edge);
-            if (log.size_of_fork() % kLookEvery == 0 && context_.cancelled()) return;
-        }
+        collapser_->queue() = EdgeQueue(0, mesh_.half_edge_count());
     }
 
     /// Evaluates every edge, on all threads the context allows: each depends only on the mesh as it stands.
