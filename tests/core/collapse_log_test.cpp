@@ -106,6 +106,55 @@ TEST(CollapseLogTest, OfTwoVerticesWithAsManyEdgesTheFanOfTheNewOneBeginsAtTheNe
     }
 }
 
+/// A few steps around two places far from each other, told by one log and by two.
+TEST(CollapseLogTest, WhatForksTellIsAsIfOneLogHadBeenTold) {
+    const auto step = [](HalfEdgeMesh& mesh, CollapseLog& log, HalfEdge h) {
+        const EdgeStar star = mesh.star(h);
+        const Vec3 position = (mesh.position(mesh.origin(star.ij)) + mesh.position(mesh.origin(star.ji))) / 2;
+        log.record(mesh, star, position);
+        mesh.collapse(star, position);
+        const HalfEdge beside = next(star.ie);
+        log.record_flip(beside);
+        mesh.flip(beside);
+    };
+    const auto move = [](HalfEdgeMesh& mesh, CollapseLog& log, std::uint32_t v) {
+        log.record_move(mesh, v);
+        mesh.move(v, mesh.position(v) * 1.01);
+    };
+    for (const bool has_edits_before : {false, true}) {
+        HalfEdgeMesh mesh(icosphere(4)), other(icosphere(4));
+        CollapseLog log, forked;
+        const HalfEdge first = 0, second = mesh.half_edge_count() / 2, third = mesh.half_edge_count() / 4 / 3 * 3;
+        if (has_edits_before) {
+            step(mesh, log, third);
+            step(other, forked, third);
+            move(mesh, log, mesh.vertex_count() - 1);
+            move(other, forked, mesh.vertex_count() - 1);
+        }
+        forked.end_step(other);
+        CollapseLog left = forked.fork(other), right = forked.fork(other);
+        for (const HalfEdge h : {first, first + 300}) step(mesh, log, h);
+        for (const HalfEdge h : {second, second + 300}) step(mesh, log, h);
+        for (const HalfEdge h : {second, second + 300}) step(other, right, h);  // at the same time as the left ones
+        for (const HalfEdge h : {first, first + 300}) step(other, left, h);
+        forked.append(std::move(left));
+        forked.append(std::move(right));
+        EXPECT_EQ(forked.size(), log.size());
+        CollapseLog moves = forked.fork(other);
+        for (const std::uint32_t v : {mesh.vertex_count() - 1, mesh.vertex_count() - 1, mesh.vertex_count() - 40}) {
+            move(mesh, log, v);
+            move(other, moves, v);
+        }
+        forked.append(std::move(moves));
+        step(mesh, log, third + 600);
+        step(other, forked, third + 600);
+        const MultiresMesh expected = log.build(mesh), found = forked.build(other);
+        EXPECT_GT(expected.records.moves().size(), 0U);
+        EXPECT_GT(expected.records.flips().size(), 4U);
+        EXPECT_EQ(found, expected);
+    }
+}
+
 TEST_F(CollapseLogStepTest, MovesOfAStepAreOne) {
     const std::uint32_t v = far_away();
     const Vec3 lay = mesh_.position(v);
