@@ -73,7 +73,7 @@ protected:
         kept_ = mesh_.origin(star.ie);
     }
     void move(std::uint32_t v, const Vec3& to) {
-        log_.record_move(v, mesh_.position(v));
+        log_.record_move(mesh_, v);
         mesh_.move(v, to);
     }
     [[nodiscard]] std::uint32_t far_away() const {
@@ -103,6 +103,55 @@ TEST(CollapseLogTest, OfTwoVerticesWithAsManyEdgesTheFanOfTheNewOneBeginsAtTheNe
         ASSERT_EQ(mrr.levels(), 1U);
         const std::uint32_t anchor = mrr.records.splits()[0].anchor;
         EXPECT_EQ(mrr.base.positions[mrr.base.faces[anchor / 3][(anchor + 1) % 3]], end) << at_b;
+    }
+}
+
+/// A few steps around two places far from each other, told by one log and by two.
+TEST(CollapseLogTest, WhatForksTellIsAsIfOneLogHadBeenTold) {
+    const auto step = [](HalfEdgeMesh& mesh, CollapseLog& log, HalfEdge h) {
+        const EdgeStar star = mesh.star(h);
+        const Vec3 position = (mesh.position(mesh.origin(star.ij)) + mesh.position(mesh.origin(star.ji))) / 2;
+        log.record(mesh, star, position);
+        mesh.collapse(star, position);
+        const HalfEdge beside = next(star.ie);
+        log.record_flip(beside);
+        mesh.flip(beside);
+    };
+    const auto move = [](HalfEdgeMesh& mesh, CollapseLog& log, std::uint32_t v) {
+        log.record_move(mesh, v);
+        mesh.move(v, mesh.position(v) * 1.01);
+    };
+    for (const bool has_edits_before : {false, true}) {
+        HalfEdgeMesh mesh(icosphere(4)), other(icosphere(4));
+        CollapseLog log, forked;
+        const HalfEdge first = 0, second = mesh.half_edge_count() / 2, third = mesh.half_edge_count() / 4 / 3 * 3;
+        if (has_edits_before) {
+            step(mesh, log, third);
+            step(other, forked, third);
+            move(mesh, log, mesh.vertex_count() - 1);
+            move(other, forked, mesh.vertex_count() - 1);
+        }
+        forked.end_step(other);
+        CollapseLog left = forked.fork(other), right = forked.fork(other);
+        for (const HalfEdge h : {first, first + 300}) step(mesh, log, h);
+        for (const HalfEdge h : {second, second + 300}) step(mesh, log, h);
+        for (const HalfEdge h : {second, second + 300}) step(other, right, h);  // at the same time as the left ones
+        for (const HalfEdge h : {first, first + 300}) step(other, left, h);
+        forked.append(std::move(left));
+        forked.append(std::move(right));
+        EXPECT_EQ(forked.size(), log.size());
+        CollapseLog moves = forked.fork(other);
+        for (const std::uint32_t v : {mesh.vertex_count() - 1, mesh.vertex_count() - 1, mesh.vertex_count() - 40}) {
+            move(mesh, log, v);
+            move(other, moves, v);
+        }
+        forked.append(std::move(moves));
+        step(mesh, log, third + 600);
+        step(other, forked, third + 600);
+        const MultiresMesh expected = log.build(mesh), found = forked.build(other);
+        EXPECT_GT(expected.records.moves().size(), 0U);
+        EXPECT_GT(expected.records.flips().size(), 4U);
+        EXPECT_EQ(found, expected);
     }
 }
 

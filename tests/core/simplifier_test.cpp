@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "base/thread_limit.h"
 #include "mesh/cap_boundaries.h"
 #include "simplify/collapse_log.h"
 #include "simplify/edge_evaluator.h"
@@ -17,6 +18,7 @@
 #include "tests/core/meshes.h"
 #include "tests/core/polishing.h"
 #include "tests/core/random.h"
+#include "vsplit/mesh/inspect.h"
 #include "vsplit/mrr/progressive_mesh.h"
 #include "vsplit/quality/stretch.h"
 #include "vsplit/subdivide/subdivide.h"
@@ -244,7 +246,8 @@ TEST(EdgeEvaluatorTest, LinkConditionIsThatOfTheDefinition) {
 TEST(EdgeQueueTest, BehavesLikeASortedMap) {
     test::Random random(21);
     constexpr std::uint32_t kEdges = 3000;  // three levels of matches
-    EdgeQueue queue(kEdges);
+    constexpr HalfEdge kFirst = 300;
+    EdgeQueue queue(kFirst, kFirst + kEdges);
     std::map<HalfEdge, double> reference;
     std::set<HalfEdge> aside;
     const auto best = [&] {
@@ -253,7 +256,7 @@ TEST(EdgeQueueTest, BehavesLikeASortedMap) {
         });
     };
     for (int step = 0; step < 20000; ++step) {
-        const HalfEdge edge = random.below(step < 200 ? 2 : step < 10000 ? 60 : kEdges);
+        const HalfEdge edge = kFirst + random.below(step < 200 ? 2 : step < 10000 ? 60 : kEdges);
         reference.erase(edge);
         aside.erase(edge);
         if (random.below(3) == 0) {
@@ -285,6 +288,28 @@ TEST(SimplifierTest, SameBytesForAnyNumberOfThreads) {
     ASSERT_TRUE(left);
     ASSERT_TRUE(right);
     EXPECT_EQ(*left, *right);
+}
+
+/// Large enough for several parts, on the way there too.
+TEST(SimplifierTest, PartsGiveTheSameBytesForAnyNumberOfThreads) {
+    for (const TriangleMesh& mesh :
+         {test::bumpy_sphere(6, 0.002, 4), test::punctured(test::torus(250, 100), {0, 20000, 40000})}) {
+        SimplifyInput input = test::simplify_input(mesh, 0.01);
+        input.faces = input.faces_min = 8000;
+        const ExecutionContext one({}, 1), many;
+        const auto left = with_thread_limit(one, [&] { return simplify(input, Extended<ImprovePolicy>{}, one); });
+        const auto right = with_thread_limit(many, [&] { return simplify(input, Extended<ImprovePolicy>{}, many); });
+        ASSERT_TRUE(left && right);
+        EXPECT_TRUE(*left == *right);
+        EXPECT_GT(left->records.flips().size(), 100U);
+        EXPECT_GT(left->records.moves().size(), 100U);
+        for (const double share : {0.0, 0.3, 0.7, 1.0}) {
+            const MeshReport report =
+                inspect(mesh_at(*left, static_cast<std::size_t>(share * static_cast<double>(left->levels()))));
+            EXPECT_TRUE(require_manifold(report)) << share;
+            EXPECT_EQ(report.components, 1U);
+        }
+    }
 }
 
 TEST(SimplifierTest, SameBytesWithAnyKindOfVector) {

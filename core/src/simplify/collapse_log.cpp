@@ -108,14 +108,37 @@ void CollapseLog::record(const HalfEdgeMesh& mesh, const EdgeStar& star, const V
 }
 
 void CollapseLog::record_flip(HalfEdge h) {
-    if (!entries_.empty()) flips_.push_back(h);
+    if (size() > 0) flips_.push_back(h);
 }
 
-void CollapseLog::record_move(std::uint32_t v, const Vec3& before) {
-    if (entries_.empty() || v == stayed_) return;
-    if (v >= moved_in_.size()) moved_in_.resize(std::max<std::size_t>(v + std::size_t{1}, 2 * moved_in_.size()), 0);
-    const auto step = static_cast<std::uint32_t>(entries_.size());
-    if (std::exchange(moved_in_[v], step) != step) moves_.push_back({v, before});
+void CollapseLog::record_move(const HalfEdgeMesh& mesh, std::uint32_t v) {
+    if (size() == 0 || v == stayed_) return;
+    if (!moved_in_) moved_in_ = std::make_shared<std::vector<std::uint32_t>>(mesh.vertex_count(), 0);
+    const auto step = static_cast<std::uint32_t>(size());
+    if (std::exchange((*moved_in_)[v], step) != step) moves_.push_back({v, mesh.position(v)});
+}
+
+CollapseLog CollapseLog::fork(const HalfEdgeMesh& mesh) {
+    if (!moved_in_) moved_in_ = std::make_shared<std::vector<std::uint32_t>>(mesh.vertex_count(), 0);
+    CollapseLog part;
+    part.stayed_ = stayed_;
+    part.moved_in_ = moved_in_;
+    part.before_ = size();
+    return part;
+}
+
+void CollapseLog::append(CollapseLog part) {
+    const Edits before{static_cast<std::uint32_t>(flips_.size()), static_cast<std::uint32_t>(moves_.size())};
+    const std::size_t plain = part.entries_.size() - part.edits_.size();  // collapses before which the part had no edits
+    for (std::size_t n = 0; n < part.entries_.size(); ++n) {
+        const Edits own = n < plain ? Edits{} : part.edits_[n - plain];
+        const Edits all{before.flips + own.flips, before.moves + own.moves};
+        if (!edits_.empty() || all.flips > 0 || all.moves > 0) edits_.push_back(all);
+    }
+    if (!part.entries_.empty()) stayed_ = part.stayed_;
+    entries_.insert(entries_.end(), part.entries_.begin(), part.entries_.end());
+    flips_.insert(flips_.end(), part.flips_.begin(), part.flips_.end());
+    moves_.insert(moves_.end(), part.moves_.begin(), part.moves_.end());
 }
 
 /// Drops the moves of the step that ends here whose vertex is back where it lay.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "simplify/half_edge_mesh.h"
@@ -22,14 +23,24 @@ public:
     /// The edge of h was turned counter-clockwise: HalfEdgeMesh::flip(h). O(1).
     void record_flip(HalfEdge h);
 
-    /// Vertex v was moved and lay at `before`. Of several moves between two collapses the net one is kept: none where a vertex
-    /// ends where it began, nor for the vertex that the collapse made, which the split puts elsewhere anyway. O(1) amortised.
-    void record_move(std::uint32_t v, const Vec3& before);
+    /// Call before vertex v of `mesh` moves. Of several moves between two collapses the net one is kept: none where a vertex
+    /// ends where it began, nor for the vertex that the collapse made, which the split puts elsewhere anyway. O(1).
+    void record_move(const HalfEdgeMesh& mesh, std::uint32_t v);
 
     /// Number of collapses.
-    [[nodiscard]] std::size_t size() const { return entries_.size(); }
+    [[nodiscard]] std::size_t size() const { return before_ + entries_.size(); }
 
     void clear() { *this = {}; }
+
+    /// What comes next are collapses: moves in vain are dropped, which could not be told from others once vertices go.
+    void end_step(const HalfEdgeMesh& mesh) { keep_net_moves(mesh); }
+
+    /// A log of what comes next in a part of `mesh`, kept beside those of other parts. `append` them before this one is used
+    /// again.
+    [[nodiscard]] CollapseLog fork(const HalfEdgeMesh& mesh);
+
+    /// As if what a fork tells had been recorded here. \pre what parts did does not depend on the order they come in.
+    void append(CollapseLog part);
 
     /// Numbers what is left of `mesh` as the base mesh, each vertex and pair of faces that went as the
     /// split that brings them back, and turns faces as VertexSplit wants them. For each collapse, newest first, come the flips
@@ -66,8 +77,9 @@ private:
     std::uint32_t stayed_ = kNone;  // the vertex that the last collapse left
     std::vector<Edits> edits_;      // of the last collapses; there were none before the others
     std::vector<HalfEdge> flips_;
-    std::vector<VertexMove> moves_;        // positions are those before
-    std::vector<std::uint32_t> moved_in_;  // per vertex: collapses made when it was moved last
+    std::vector<VertexMove> moves_;                         // positions are those before
+    std::shared_ptr<std::vector<std::uint32_t>> moved_in_;  // per vertex: collapses made when it was moved last
+    std::size_t before_ = 0;                                // of a fork: collapses of what it was forked from
 };
 
 }  // namespace vsplit

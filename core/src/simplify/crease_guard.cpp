@@ -25,7 +25,8 @@ double square_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
 }  // namespace
 
 CreaseGuard::CreaseGuard(const HalfEdgeMesh& mesh, const std::vector<SharpEdge>& creases, double limit)
-    : limit_(limit), first_(mesh.half_edge_count(), kNone) {
+    : limit_(limit), points_(std::make_shared<Points>()) {
+    points_->first.assign(mesh.half_edge_count(), kNone);
     for (const SharpEdge& crease : creases) {
         mesh.for_each_outgoing(crease.a, [&](HalfEdge h) {
             if (mesh.target(h) == crease.b) add(mesh.edge_of(h), mesh.position(crease.a), mesh.position(crease.b));
@@ -36,9 +37,9 @@ CreaseGuard::CreaseGuard(const HalfEdgeMesh& mesh, const std::vector<SharpEdge>&
 void CreaseGuard::add(HalfEdge edge, const Vec3& a, const Vec3& b) {
     const auto count = static_cast<int>(std::clamp(std::ceil((b - a).norm() / (kStep * limit_)), 1.0, kMostPointsAnEdge));
     for (int n = 0; n < count; ++n) {
-        points_.push_back(a + (b - a) * ((n + 0.5) / count));
-        next_.push_back(kNone);
-        put({static_cast<std::uint32_t>(points_.size() - 1), edge});
+        points_->at.push_back(a + (b - a) * ((n + 0.5) / count));
+        points_->next.push_back(kNone);
+        put({static_cast<std::uint32_t>(points_->at.size() - 1), edge});
     }
 }
 
@@ -46,7 +47,7 @@ bool CreaseGuard::place(std::uint32_t point, std::span<const NewCrease> creases)
     double least = std::numeric_limits<double>::infinity();
     HalfEdge edge = kNone;
     for (const NewCrease& crease : creases) {
-        const double square = square_distance(points_[point], crease.a, crease.b);
+        const double square = square_distance(points_->at[point], crease.a, crease.b);
         if (!(square < least)) continue;
         least = square;
         edge = crease.edge;
@@ -59,7 +60,7 @@ bool CreaseGuard::place(std::uint32_t point, std::span<const NewCrease> creases)
 bool CreaseGuard::admits(std::span<const HalfEdge> old_edges, std::span<const NewCrease> creases) {
     places_.clear();
     for (const HalfEdge edge : old_edges) {
-        for (std::uint32_t point = first_[edge]; point != kNone; point = next_[point]) {
+        for (std::uint32_t point = points_->first[edge]; point != kNone; point = points_->next[point]) {
             if (!place(point, creases)) return false;
         }
     }
@@ -77,9 +78,9 @@ void CreaseGuard::go_to_nearest(const std::vector<NewCrease>& creases) {
     }
     const CreaseIndex index = crease_index(ends, edges);
     places_.clear();
-    for (HalfEdge edge = 0; edge < first_.size(); ++edge) {
-        for (std::uint32_t point = std::exchange(first_[edge], kNone); point != kNone; point = next_[point]) {
-            const CreaseIndex::Hit hit = index.closest(points_[point], limit_ * limit_);
+    for (HalfEdge edge = 0; edge < points_->first.size(); ++edge) {
+        for (std::uint32_t point = std::exchange(points_->first[edge], kNone); point != kNone; point = points_->next[point]) {
+            const CreaseIndex::Hit hit = index.closest(points_->at[point], limit_ * limit_);
             places_.push_back({point, hit.element == CreaseIndex::kNoElement ? edge : creases[hit.element].edge});
         }
     }
@@ -87,7 +88,7 @@ void CreaseGuard::go_to_nearest(const std::vector<NewCrease>& creases) {
 }
 
 void CreaseGuard::commit(std::span<const HalfEdge> old_edges) {
-    for (const HalfEdge edge : old_edges) first_[edge] = kNone;
+    for (const HalfEdge edge : old_edges) points_->first[edge] = kNone;
     for (const Place& at : places_) put(at);
 }
 

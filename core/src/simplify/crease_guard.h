@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace vsplit {
 ///
 /// Points along the source's creases are kept at a crease of the mesh that is near: where that goes, or is sharp no longer, they
 /// go over to one of those about, or else it may not go. So thin steps and grooves do not go flat, however little the surface
-/// would move. Samples, as with DeviationGuard.
+/// would move. Samples, as with DeviationGuard, and as there a copy keeps the same points.
 class CreaseGuard {
 public:
     /// A crease as it would be.
@@ -36,7 +37,7 @@ public:
     /// What a point was handed on to need not be what is nearest to it now. O((creases + points) log creases).
     void go_to_nearest(const std::vector<NewCrease>& creases);
 
-    [[nodiscard]] bool holds_points(HalfEdge edge) const { return first_[edge] != kNone; }
+    [[nodiscard]] bool holds_points(HalfEdge edge) const { return points_->first[edge] != kNone; }
 
 private:
     struct Place {
@@ -47,15 +48,19 @@ private:
     void add(HalfEdge edge, const Vec3& a, const Vec3& b);
     [[nodiscard]] bool place(std::uint32_t point, std::span<const NewCrease> creases);
     void put(Place at) {
-        next_[at.point] = first_[at.edge];
-        first_[at.edge] = at.point;
+        points_->next[at.point] = points_->first[at.edge];
+        points_->first[at.edge] = at.point;
     }
 
+    struct Points {
+        std::vector<Vec3> at;
+        std::vector<std::uint32_t> next;   // of a point: the next one at its edge, or kNone
+        std::vector<std::uint32_t> first;  // of an edge, by its number: its first point, or kNone
+    };
+
     const double limit_;
-    std::vector<Vec3> points_;
-    std::vector<std::uint32_t> next_;   // of a point: the next one at its edge, or kNone
-    std::vector<std::uint32_t> first_;  // of an edge, by its number: its first point, or kNone
-    std::vector<Place> places_;         // where the points of old edges would go
+    std::shared_ptr<Points> points_;
+    std::vector<Place> places_;  // where the points of old edges would go
 };
 
 }  // namespace vsplit

@@ -31,20 +31,21 @@ std::uint32_t visible_face(const HalfEdgeMesh& mesh, const Border& border, std::
 
 DeviationGuard::DeviationGuard(const HalfEdgeMesh& mesh, const SurfaceIndex& source, double limit, std::uint32_t most_points,
                                const Border& border)
-    : border_(border.empty() ? nullptr : std::make_unique<BorderGuard>(mesh, border, limit)),
+    : border_(border.empty() ? nullptr : std::make_shared<BorderGuard>(mesh, border, limit)),
       source_(source),
       limit_(limit),
       limit_square_(limit * limit),
-      points_(mesh.vertex_count()),
-      next_(mesh.vertex_count(), kNone),
-      first_(mesh.half_edge_count() / 3, kNone) {
+      points_(std::make_shared<Points>()) {
+    points_->at.resize(mesh.vertex_count());
+    points_->next.assign(mesh.vertex_count(), kNone);
+    points_->first.assign(mesh.half_edge_count() / 3, kNone);
     // Vertices are numbered along a curve through space, so every n-th of them are spread evenly.
     const std::uint32_t stride = 1 + mesh.vertex_count() / std::max(most_points, 1U);
     for (std::uint32_t v = 0; v < mesh.vertex_count(); v += stride) {
         if (mesh.outgoing(v) == kNone || border.is_ghost(v)) continue;
-        points_[v] = mesh.position(v);
-        std::uint32_t& first = first_[visible_face(mesh, border, v)];
-        next_[v] = first;
+        points_->at[v] = mesh.position(v);
+        std::uint32_t& first = points_->first[visible_face(mesh, border, v)];
+        points_->next[v] = first;
         first = v;
     }
 }
@@ -116,8 +117,8 @@ bool DeviationGuard::reached_by_source(std::span<const std::uint32_t> old_faces,
     for (const NewFace& f : faces) shapes_.emplace_back(TriangleShape{{f.apex, f.b, f.c}});
     std::size_t guess = 0;  // points of a face are near each other
     for (const std::uint32_t old : old_faces) {
-        for (std::uint32_t point = first_[old]; point != kNone; point = next_[point]) {
-            const Nearest nearest = nearest_face(points_[point], guess);
+        for (std::uint32_t point = points_->first[old]; point != kNone; point = points_->next[point]) {
+            const Nearest nearest = nearest_face(points_->at[point], guess);
             if (!(nearest.square <= limit_square_)) return false;
             guess = nearest.number;
             places_.push_back({point, faces[guess].face});
@@ -128,10 +129,10 @@ bool DeviationGuard::reached_by_source(std::span<const std::uint32_t> old_faces,
 
 bool DeviationGuard::replace(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces) {
     if (!reached_by_source(old_faces, faces) || !reaches_source(faces)) return false;
-    for (const std::uint32_t old : old_faces) first_[old] = kNone;
+    for (const std::uint32_t old : old_faces) points_->first[old] = kNone;
     for (const Place& place : places_) {
-        next_[place.point] = first_[place.face];
-        first_[place.face] = place.point;
+        points_->next[place.point] = points_->first[place.face];
+        points_->first[place.face] = place.point;
     }
     return true;
 }

@@ -19,6 +19,9 @@ namespace vsplit {
 /// over to the new ones, as in the error control of Klein, Liebich and Strasser (Mesh Reduction with Error Control, 1996). New
 /// faces are tried at their apex, their middle and the middle of one side, long ones and fins at more places. Both are samples:
 /// the limit is to be a little under what is promised, and the result is measured afterwards (`measure_deviation`).
+///
+/// A copy keeps the same points, not others: two may be used at the same time, each for faces that the other has nothing to do
+/// with.
 class DeviationGuard {
 public:
     /// A face as it would be. Its side (b, c) was there before, in a face of normal `old_normal` (unit, or zero when not known):
@@ -61,13 +64,18 @@ private:
     [[nodiscard]] bool reaches_source(std::span<const NewFace> faces);
     [[nodiscard]] bool reached_by_source(std::span<const std::uint32_t> old_faces, std::span<const NewFace> faces);
 
-    std::unique_ptr<BorderGuard> border_;
+    /// By number, each at a face or at none.
+    struct Points {
+        std::vector<Vec3> at;
+        std::vector<std::uint32_t> next;   // of a point: the next one at its face, or kNone
+        std::vector<std::uint32_t> first;  // of a face: its first point, or kNone
+    };
+
+    std::shared_ptr<BorderGuard> border_;
     const SurfaceIndex& source_;
     const double limit_;
     const double limit_square_;
-    std::vector<Vec3> points_;
-    std::vector<std::uint32_t> next_;       // of a point: the next one at its face, or kNone
-    std::vector<std::uint32_t> first_;      // of a face: its first point, or kNone
+    std::shared_ptr<Points> points_;
     std::uint32_t near_face_ = kNone;       // of the source: the one found last
     std::vector<PreparedTriangle> shapes_;  // of the new faces
     std::vector<Place> places_;             // where the points of old faces would go

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "simplify/flip_quad.h"
@@ -171,7 +172,7 @@ void EdgeFlipper::flip_open_edges() {
     while (!open_.empty()) {
         const HalfEdge h = open_.back();
         open_.pop_back();
-        if (!flip_if_better(h)) continue;
+        if ((within_ != nullptr && !within_->may_turn(mesh_, h)) || !flip_if_better(h)) continue;
         const HalfEdge g = mesh_.twin(h);
         for (const HalfEdge side : {next(h), prev(h), next(g), prev(g)}) open_.push_back(side);
         changed_.push_back(face_of(h));
@@ -188,18 +189,46 @@ bool EdgeFlipper::is_as_refused(HalfEdge h) const {
     return std::max({last(h), last(g), last(prev(h)), last(prev(g))}) <= *looked_at_all_;
 }
 
-void EdgeFlipper::flip_all() {
-    const std::uint32_t start = mesh_.clock();
-    changed_.clear();
-    for (HalfEdge h = mesh_.half_edge_count(); h-- > 0;) {
-        if (!mesh_.removed(h) && mesh_.edge_of(h) == h) edges_.push_back(h);
-    }
+/// Last first.
+void EdgeFlipper::flip_noted_edges() {
     for (; !edges_.empty(); edges_.pop_back()) {
         if (is_as_refused(edges_.back())) continue;
         open_ = {edges_.back()};
         flip_open_edges();
     }
     changed_.clear();
+}
+
+template <class Take>
+void EdgeFlipper::note_edges(MeshParts::Faces faces, Take take) {
+    for (HalfEdge h = 3 * faces.end; h-- > 3 * faces.begin;) {
+        if (!mesh_.removed(h) && mesh_.edge_of(h) == h && take(h)) edges_.push_back(h);
+    }
+}
+
+void EdgeFlipper::flip_all() {
+    const std::uint32_t start = mesh_.clock();
+    note_edges({0, mesh_.half_edge_count() / 3}, [](HalfEdge) { return true; });
+    flip_noted_edges();
+    looked_at_all_ = start;
+}
+
+void EdgeFlipper::flip_within(MeshParts::Faces part, std::optional<std::uint32_t> since) {
+    looked_at_all_ = since;
+    note_edges(part, [this](HalfEdge h) { return within_->may_turn(mesh_, h); });
+    flip_noted_edges();
+}
+
+/// What may not turn within a part has a vertex between them in its quad.
+void EdgeFlipper::flip_between(const MeshParts& parts, std::uint32_t start) {
+    for (const std::uint32_t v : parts.between()) {
+        mesh_.for_each_outgoing(v, [this](HalfEdge h) {
+            for (const HalfEdge side : {h, next(h)}) edges_.push_back(mesh_.edge_of(side));
+        });
+    }
+    std::sort(edges_.begin(), edges_.end(), std::greater<>());
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    flip_noted_edges();
     looked_at_all_ = start;
 }
 

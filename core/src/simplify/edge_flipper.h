@@ -9,6 +9,7 @@
 #include "simplify/guards.h"
 #include "simplify/half_edge_mesh.h"
 #include "simplify/local_state.h"
+#include "simplify/mesh_parts.h"
 #include "simplify/polish_limits.h"
 
 namespace vsplit {
@@ -17,17 +18,28 @@ namespace vsplit {
 /// and a face there is to be mended, and no bound breaks that held. Tells the log.
 class EdgeFlipper {
 public:
-    EdgeFlipper(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits)
+    /// With `within` no flip leaves a part of it.
+    EdgeFlipper(HalfEdgeMesh& mesh, LocalState& state, CollapseLog& log, const Guards& guards, const PolishLimits& limits,
+                const MeshParts* within = nullptr)
         : mesh_(mesh),
           state_(state),
           log_(log),
           guard_(guards.surface),
           creases_(mesh, state, guards.creases, limits.crease_cosine),
-          limits_(limits) {}
+          limits_(limits),
+          within_(within) {}
 
     /// All over the mesh, and again around what was flipped. Ends, since each flip betters the worse of two faces. What was
     /// looked at before and has not changed since is left out: it would be refused again. O(faces).
     void flip_all();
+
+    /// The same within one part of those given, and when that is done in all of them between them. `since`: looked_at_all() of
+    /// who flips between them; `start`: the mesh's clock before.
+    void flip_within(MeshParts::Faces part, std::optional<std::uint32_t> since);
+    void flip_between(const MeshParts& parts, std::uint32_t start);
+
+    /// The mesh's clock when all edges began to be looked at last.
+    [[nodiscard]] std::optional<std::uint32_t> looked_at_all() const { return looked_at_all_; }
 
     /// Among the edges of v and of its ring, and again around what was flipped. The faces that changed are in `changed_faces()`.
     void flip_around(std::uint32_t v);
@@ -45,6 +57,9 @@ public:
 private:
     struct Quad;
 
+    template <class Take>
+    void note_edges(MeshParts::Faces faces, Take take);
+    void flip_noted_edges();
     void flip_open_edges();
     [[nodiscard]] double left_stretch(HalfEdge h) const;
     [[nodiscard]] bool flip_if_better(HalfEdge h);
@@ -67,9 +82,10 @@ private:
     DeviationGuard* const guard_;
     CreaseReplacement creases_;
     const PolishLimits limits_;
-    std::vector<HalfEdge> edges_;                 // of flip_all, last first
-    std::vector<HalfEdge> open_;                  // edges to look at, last first
-    std::optional<std::uint32_t> looked_at_all_;  // the mesh's clock when flip_all began last
+    const MeshParts* const within_;
+    std::vector<HalfEdge> edges_;  // of flip_all, last first
+    std::vector<HalfEdge> open_;   // edges to look at, last first
+    std::optional<std::uint32_t> looked_at_all_;
     std::vector<std::uint32_t> changed_;
 };
 

@@ -33,8 +33,8 @@ std::size_t first_with(const double* players, double priority) {
 
 }  // namespace
 
-EdgeQueue::EdgeQueue(std::size_t half_edges) {
-    for (std::size_t players = half_edges;;) {
+EdgeQueue::EdgeQueue(HalfEdge first, HalfEdge last) : first_(first) {
+    for (std::size_t players = last - first;;) {
         const std::size_t matches = std::max<std::size_t>(1, (players + kPlayers - 1) / kPlayers);
         levels_.push_back({large_vector(matches * kPlayers, kAbsent), {}, std::vector<bool>(matches, false)});
         if (matches == 1) break;
@@ -77,7 +77,7 @@ HalfEdge EdgeQueue::top() {
     for (std::size_t level = levels_.size(); level-- > 0;) {
         match = match * kPlayers + first_with(&levels_[level].best[match * kPlayers], most);
     }
-    return static_cast<HalfEdge>(match);
+    return first_ + static_cast<HalfEdge>(match);
 }
 
 }  // namespace vsplit

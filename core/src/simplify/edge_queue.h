@@ -15,33 +15,34 @@ namespace vsplit {
 /// over memory. Setting is O(1), the winner O(changed matches * log(edges)).
 class EdgeQueue {
 public:
-    explicit EdgeQueue(std::size_t half_edges);
+    /// For edges that go by numbers from `first` on and under `last`.
+    EdgeQueue(HalfEdge first, HalfEdge last);
 
     /// Inserts the edge or changes its priority. \pre priority >= 0.
     void set(HalfEdge edge, double priority) {
-        levels_[0].best[edge] = priority;
-        touch(0, edge / kPlayers);
+        levels_[0].best[edge - first_] = priority;
+        touch(0, (edge - first_) / kPlayers);
     }
 
     /// `set` for many, from any thread, each for other edges; `open_all` must follow. \pre the edge is not there.
-    void enter(HalfEdge edge, double priority) { levels_[0].best[edge] = priority; }
+    void enter(HalfEdge edge, double priority) { levels_[0].best[edge - first_] = priority; }
     void open_all();
 
     /// Drops the edge if it is there.
     void erase(HalfEdge edge) {
-        levels_[0].best[edge] = kAbsent;
-        touch(0, edge / kPlayers);
+        levels_[0].best[edge - first_] = kAbsent;
+        touch(0, (edge - first_) / kPlayers);
     }
 
     /// Drops the edge and notes it, until it is set or erased. O(1).
     void set_aside(HalfEdge edge) {
-        levels_[0].best[edge] = kAside;
-        touch(0, edge / kPlayers);
+        levels_[0].best[edge - first_] = kAside;
+        touch(0, (edge - first_) / kPlayers);
     }
-    [[nodiscard]] bool is_aside(HalfEdge edge) const { return levels_[0].best[edge] == kAside; }
+    [[nodiscard]] bool is_aside(HalfEdge edge) const { return levels_[0].best[edge - first_] == kAside; }
 
     /// `set_aside` for many, as `enter` is `set`.
-    void enter_aside(HalfEdge edge) { levels_[0].best[edge] = kAside; }
+    void enter_aside(HalfEdge edge) { levels_[0].best[edge - first_] = kAside; }
 
     /// Drops all. O(edges).
     void clear();
@@ -49,7 +50,15 @@ public:
     /// The edge of largest priority, or kNone when there is none.
     [[nodiscard]] HalfEdge top();
 
-    [[nodiscard]] double priority(HalfEdge edge) const { return levels_[0].best[edge]; }
+    /// visit(priority) for each edge that is there.
+    template <class Visit>
+    void for_each(Visit visit) const {
+        for (const double priority : levels_[0].best) {
+            if (priority >= 0) visit(priority);
+        }
+    }
+
+    [[nodiscard]] double priority(HalfEdge edge) const { return levels_[0].best[edge - first_]; }
 
 private:
     static constexpr std::size_t kPlayers = 32;
@@ -70,6 +79,7 @@ private:
     }
     void play_open_matches();
 
+    HalfEdge first_ = 0;
     std::vector<Level> levels_;  // 0: edges; the last: one match
 };
 

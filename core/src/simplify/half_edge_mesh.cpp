@@ -71,7 +71,7 @@ void HalfEdgeMesh::collapse(const EdgeStar& s, const Vec3& position) {
     --valence_[e];
     --valence_[b];
     positions_[i] = position;
-    live_faces_ -= std::min(e, b) < ghosts_ ? 1 : 2;
+    live_faces_.fetch_sub(std::min(e, b) < ghosts_ ? 1 : 2, std::memory_order_relaxed);
 }
 
 void HalfEdgeMesh::flip(HalfEdge h) {
@@ -97,7 +97,7 @@ void HalfEdgeMesh::flip(HalfEdge h) {
     outgoing_[b] = db;
     outgoing_[c] = g;
     outgoing_[d] = h;
-    ++clock_;
+    tick();
     for (const std::uint32_t v : {a, b, c, d}) touch(v);
     --valence_[a];
     --valence_[b];

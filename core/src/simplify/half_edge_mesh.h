@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -32,7 +33,7 @@ public:
     [[nodiscard]] bool is_ghost(std::uint32_t v) const { return v < ghosts_; }
 
     /// Visible ones: those at a ghost do not count.
-    [[nodiscard]] std::uint32_t live_faces() const { return live_faces_; }
+    [[nodiscard]] std::uint32_t live_faces() const { return live_faces_.load(std::memory_order_relaxed); }
 
     [[nodiscard]] std::uint32_t origin(HalfEdge h) const { return half_edges_[h].origin; }
     [[nodiscard]] std::uint32_t target(HalfEdge h) const { return half_edges_[next(h)].origin; }
@@ -85,14 +86,15 @@ public:
         touch_around(v);
     }
 
-    /// Counts flips, moves and calls of touch_around.
-    [[nodiscard]] std::uint32_t clock() const { return clock_; }
+    /// Counts flips, moves and calls of touch_around. Threads that change parts of the mesh at the same time share it: what a
+    /// part changes is later than what the clock showed before, to the thread that looked.
+    [[nodiscard]] std::uint32_t clock() const { return clock_.load(std::memory_order_relaxed); }
     /// The clock when a face at v changed last by one of these. A collapse leaves it to its caller, who has the ring at hand.
     [[nodiscard]] std::uint32_t changed_at(std::uint32_t v) const { return changed_at_[v]; }
-    void touch(std::uint32_t v) { changed_at_[v] = clock_; }
+    void touch(std::uint32_t v) { changed_at_[v] = clock(); }
     /// All faces at v are others. O(valence).
     void touch_around(std::uint32_t v) {
-        ++clock_;
+        tick();
         touch(v);
         for_each_outgoing(v, [this](HalfEdge h) { touch(target(h)); });
     }
@@ -108,6 +110,7 @@ public:
 
 private:
     HalfEdgeMesh(const TriangleMesh& mesh, const std::vector<HalfEdge>& twins, std::uint32_t ghosts);
+    void tick() { clock_.fetch_add(1, std::memory_order_relaxed); }
     void pair(HalfEdge h, HalfEdge g) {
         half_edges_[h].twin = g;
         half_edges_[g].twin = h;
@@ -141,9 +144,9 @@ private:
     std::vector<std::uint32_t> valence_;
     std::vector<Vec3> positions_;
     std::vector<std::uint32_t> changed_at_;
-    std::uint32_t clock_ = 0;
+    std::atomic<std::uint32_t> clock_ = 0;
     std::uint32_t ghosts_ = 0;
-    std::uint32_t live_faces_ = 0;
+    std::atomic<std::uint32_t> live_faces_ = 0;
 };
 
 }  // namespace vsplit

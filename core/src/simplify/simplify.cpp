@@ -13,10 +13,10 @@
 
 #include "base/release.h"
 #include "simplify/collapse_log.h"
-#include "simplify/edge_evaluator.h"
-#include "simplify/edge_queue.h"
-#include "simplify/fan_replacement.h"
+#include "simplify/collapser.h"
 #include "simplify/half_edge_mesh.h"
+#include "simplify/mesh_parts.h"
+#include "simplify/parted_collapse.h"
 #include "simplify/polish.h"
 #include "simplify/settle_creases.h"
 
@@ -40,17 +40,8 @@ constexpr int kFinalLifts = 4;
 constexpr int kCheckpointMends = 1;  // of bounds that are broken; moves cost as many lifts
 constexpr int kFinalMends = 8;
 
-/// A collapse that the guard refused so often is not tried again before the next checkpoint: trying is dear.
-constexpr std::uint8_t kMostRefusals = 3;
-
 /// Points of the source for each face asked for, to measure the deviation by.
 constexpr std::uint32_t kPointsAFace = 8;
-
-/// Asks for a quadric, which lies in two cache lines, some hundred nanoseconds before it is needed.
-void prefetch(const Quadric& quadric) {
-    __builtin_prefetch(&quadric);
-    __builtin_prefetch(&quadric.c);
-}
 
 template <class Policy>
 class Simplifier {
@@ -61,14 +52,13 @@ public:
           context_(context),
           mesh_(input_.mesh, input_.ghosts),
           state_(take_initial_state(input_)),
-          queue_(mesh_.half_edge_count()),  // edges that no collapse brings within reach before an end moves are set aside
+          limits_(limits_of(policy_, input_)),
           refusals_(input_.source ? mesh_.half_edge_count() : 0),
           faces_start_(mesh_.live_faces()),
-          evaluator_(mesh_, state_, policy_, input_),
           guard_(make_guard()),
           crease_guard_(make_crease_guard()),
-          creases_(mesh_, state_, crease_guard_.get(), input_.crease_cosine),
-          polisher_(mesh_, state_, log_, {guard_.get(), crease_guard_.get()}, limits_of(policy_, input_)) {
+          collapser_(std::make_unique<Collapser<Policy>>(setting(), guards(), log_)),
+          polisher_(mesh_, state_, log_, guards(), limits_) {
         mark_creases();
         release(input_.creases);
         log_.reserve((faces_start_ - std::min(faces_start_, input_.faces_min)) / 2 + 1);
@@ -86,10 +76,13 @@ private:
     /// Leaves the mesh alone: the representation takes as much as the rest did.
     void let_go() {
         release(state_);
-        queue_ = EdgeQueue(0);
+        collapser_ = nullptr;
         guard_ = nullptr;
         release(refusals_);
     }
+
+    [[nodiscard]] typename Collapser<Policy>::Setting setting() { return {mesh_, state_, policy_, input_, limits_, refusals_}; }
+    [[nodiscard]] Guards guards() const { return {guard_.get(), crease_guard_.get()}; }
 
     [[nodiscard]] static PolishLimits limits_of(const Policy& policy, const SimplifyInput& input) {
         PolishLimits limits{.centre = input.centre, .tolerance = input.tolerance, .crease_cosine = input.crease_cosine};
@@ -127,13 +120,13 @@ private:
         if (!has_collapses_above(input_.faces)) return;
         for (std::uint32_t face = 0; 3 * face < mesh_.half_edge_count(); ++face) slivers_ += is_sliver(face) ? 1 : 0;
         if (slivers_ == 0) return;
-        queue_.clear();
+        collapser_->queue().clear();
         if (crease_guard_) settle_creases(mesh_, state_, *crease_guard_, input_.crease_cosine);
-        creases_.let_flatten(true);
+        collapser_->creases().let_flatten(true);
         for (std::uint32_t face = 0; 3 * face < mesh_.half_edge_count() && !context_.cancelled(); ++face) {
             if (is_sliver(face)) collapse_sliver(face);
         }
-        creases_.let_flatten(false);
+        collapser_->creases().let_flatten(false);
     }
 
     void collapse_sliver(std::uint32_t face) {
@@ -144,22 +137,8 @@ private:
         std::sort(sides.begin(), sides.end(),
                   [&](HalfEdge l, HalfEdge r) { return std::pair(square(l), l) < std::pair(square(r), r); });
         for (const HalfEdge side : sides) {
-            if (!has_collapses_above(input_.faces) || collapse_to_mend(side)) return;
+            if (!has_collapses_above(input_.faces) || collapser_->collapse_to_mend(side)) return;
         }
-    }
-
-    /// To the place that collapses have else, or to either end or the middle where the guards refuse that.
-    bool collapse_to_mend(HalfEdge edge) {
-        const EdgeStar star = mesh_.star(edge);
-        const Vec3 a = mesh_.position(mesh_.origin(edge)), b = mesh_.position(mesh_.target(edge));
-        for (const std::optional<Vec3>& at :
-             {std::optional<Vec3>(), std::optional(a), std::optional(b), std::optional<Vec3>((a + b) / 2)}) {
-            const Evaluation evaluation = evaluator_.evaluate_mend(edge, at);
-            if (evaluation.verdict != Evaluation::Verdict::kValid || !guards_admit(star, evaluation.position)) continue;
-            make_collapse(star, evaluation.position);
-            return true;
-        }
-        return false;
     }
 
     /// On the way there and beyond. Vertices of too many edges are seldom mended later: faces around them have no room.
@@ -234,7 +213,7 @@ private:
     /// The strict mode: flips only, only before the first collapse, and only where a bound is broken that collapses hardly mend.
     [[nodiscard]] Status mend_and_collapse() {
         if (bounds_need_mending()) polisher_.mend(kFinalMends, false, context_);
-        stretch_sum_ = stretch_sum();
+        collapser_->stretch_sum = stretch_sum();
         return collapse_in_phases(input_.faces_min);
     }
 
@@ -252,7 +231,7 @@ private:
 
     /// The strict mode's, after each collapse. What never came up to the floor does not fall below it.
     [[nodiscard]] bool is_below_floor() {
-        const bool below = stretch_sum_ < input_.mean_floor * mesh_.live_faces();
+        const bool below = collapser_->stretch_sum < input_.mean_floor * mesh_.live_faces();
         reached_floor_ |= !below;
         return below && reached_floor_ && mesh_.live_faces() <= input_.floor_from;
     }
@@ -285,37 +264,43 @@ private:
         return collapse_all(faces);
     }
 
-    /// Fills the queue, then collapses from its top until it is empty or the mesh has no more than `faces`.
+    /// Fills the queue, then collapses from its top until it is empty or the mesh has no more than `faces`; of a large mesh first
+    /// in parts.
     [[nodiscard]] Status collapse_all(std::uint32_t faces) {
+        if constexpr (Policy::kExtended) {
+            collapse_in_parts(faces);
+            if (context_.cancelled()) return ExecutionContext::cancelled_error();
+        }
         if (Status queued = evaluate_all_edges(); !queued) return queued;
         std::uint32_t collapses = 0;
         while (has_collapses_above(faces)) {
-            const HalfEdge edge = queue_.top();
+            const HalfEdge edge = collapser_->queue().top();
             if (edge == kNone || (!Policy::kExtended && is_below_floor())) break;
-            collapse(edge);
+            collapser_->collapse(edge);
             if (++collapses % kLookEvery == 0 && context_.cancelled()) return ExecutionContext::cancelled_error();
             if (collapses % kReportEvery == 0) report_simplified();
         }
         return Done{};
     }
 
-    /// Queues an edge by its priority, or not at all.
-    void settle(HalfEdge edge) {
-        if (!refusals_.empty() && refusals_[edge] >= kMostRefusals) return;
-        const Evaluation evaluation = evaluator_.rank(edge);
-        switch (evaluation.verdict) {
-            case Evaluation::Verdict::kValid:
-                return queue_.set(edge, evaluation.priority);
-            case Evaluation::Verdict::kInvalid:
-                return queue_.erase(edge);
-            case Evaluation::Verdict::kOutOfReach:
-                return queue_.set_aside(edge);
-        }
+    /// Those that are deep in their part, as many as are theirs of the collapses to come. The rest makes things even: where parts
+    /// did more, by a second cut elsewhere, shape was worse (docs/profile.md).
+    void collapse_in_parts(std::uint32_t faces) {
+        const MeshParts parts(mesh_, shifted_ = !shifted_);
+        if (parts.count() == 1 || !has_collapses_above(faces)) return;
+        std::fill(refusals_.begin(), refusals_.end(), std::uint8_t{0});
+        collapser_->queue() = EdgeQueue(0, 0);  // its memory goes to those of the parts
+        const double collapses = parts.deep_share() * (mesh_.live_faces() - faces) / 2;
+        PartedCollapse<Policy>(setting(), guards(), log_, parts, context_).run(static_cast<std::size_t>(collapses), [this] {
+            report_simplified();
+        });
+        collapser_->queue() = EdgeQueue(0, mesh_.half_edge_count());
     }
 
     /// Evaluates every edge, on all threads the context allows: each depends only on the mesh as it stands.
     [[nodiscard]] Status evaluate_all_edges() {
-        queue_.clear();
+        EdgeQueue& queue = collapser_->queue();
+        queue.clear();
         std::fill(refusals_.begin(), refusals_.end(), std::uint8_t{0});
         tbb::enumerable_thread_specific<EdgeEvaluator<Policy>> evaluators(
             [&] { return EdgeEvaluator<Policy>(mesh_, state_, policy_, input_); });
@@ -326,110 +311,16 @@ private:
             for (HalfEdge h = range.begin(); h < range.end(); ++h) {
                 if (mesh_.removed(h) || mesh_.edge_of(h) != h) continue;
                 const Evaluation evaluation = evaluator.rank(h);
-                if (evaluation.verdict == Evaluation::Verdict::kValid) queue_.enter(h, evaluation.priority);
-                if (evaluation.verdict == Evaluation::Verdict::kOutOfReach) queue_.enter_aside(h);
+                if (evaluation.verdict == Evaluation::Verdict::kValid) queue.enter(h, evaluation.priority);
+                if (evaluation.verdict == Evaluation::Verdict::kOutOfReach) queue.enter_aside(h);
             }
         };
         tbb::parallel_for(tbb::blocked_range<HalfEdge>(0, mesh_.half_edge_count(), 2048), evaluate_range);
         if (context_.cancelled()) return ExecutionContext::cancelled_error();
         report_evaluated(1);
         evaluated_ = true;
-        queue_.open_all();
+        queue.open_all();
         return Done{};
-    }
-
-    /// Whether the guards let the edge of `star` collapse to `position`. \pre the evaluator's fan is that of the collapse.
-    [[nodiscard]] bool guards_admit(const EdgeStar& star, const Vec3& position) {
-        const Fan& fan = evaluator_.fan();
-        if (!creases_.try_collapse(star, fan, position)) return false;
-        return !guard_ || replacement_.try_on(*guard_, fan, position, {face_of(star.ij), face_of(star.ji)},
-                                              {mesh_.origin(star.ij), mesh_.origin(star.ji)});
-    }
-
-    void collapse(HalfEdge edge) {
-        const EdgeStar star = mesh_.star(edge);
-        // The fan belongs to the edge evaluated last; this one's is made again, for its place and its faces.
-        const Evaluation evaluation = evaluator_.evaluate(edge);
-        if (evaluation.verdict != Evaluation::Verdict::kValid) return drop(edge);  // it would pinch the surface
-        // Evenness goes by the valences across the edge, whose changes do not reach as far as those of shape.
-        assert(Policy::kExtended || evaluation.priority == queue_.priority(mesh_.edge_of(edge)));
-        if (!guards_admit(star, evaluation.position)) {
-            ++refusals_[edge];
-            return drop(edge);  // until its neighbourhood changes
-        }
-        make_collapse(star, evaluation.position);
-    }
-
-    /// \pre the evaluator's fan is that of the collapse, and the guards let it pass.
-    void make_collapse(const EdgeStar& star, const Vec3& position) {
-        for (const HalfEdge h : {star.ij, star.je, star.ei, star.ib, star.bj}) drop(h);
-        log_.record(mesh_, star, position);
-        if constexpr (!Policy::kExtended) stretch_sum_ -= visible_stretch(face_of(star.ij)) + visible_stretch(face_of(star.ji));
-        const std::uint32_t kept = mesh_.origin(star.ij), removed = mesh_.origin(star.ji);
-        state_.quadrics[kept] += state_.quadrics[removed];
-        state_.border.join(kept, removed);
-        if (state_.sizes.given()) state_.sizes.put(kept, state_.sizes.between(mesh_, kept, removed, position));
-        mesh_.collapse(star, position);
-        creases_.commit();
-        if constexpr (Policy::kExtended) mark_new_creases();
-        update_faces(kept);
-        const std::uint32_t before = mesh_.clock();
-        mesh_.touch_around(kept);
-        if constexpr (Policy::kExtended) flip_around(kept);
-        requeue_around(kept, before);
-    }
-
-    /// Those that a crease which went has left its points to.
-    void mark_new_creases() {
-        for (const HalfEdge edge : creases_.new_creases()) mesh_.mark_crease(edge);
-    }
-
-    /// Flips give edges other numbers: those of the faces that changed are taken out of the queue before they come in anew.
-    void flip_around(std::uint32_t kept) {
-        const std::vector<std::uint32_t>& changed = polisher_.flip_around(kept);
-        for (const std::uint32_t face : changed) {
-            for (const HalfEdge h : {3 * face, 3 * face + 1, 3 * face + 2}) {
-                queue_.erase(h);
-                queue_.erase(mesh_.twin(h));
-                ring_.push_back(mesh_.origin(h));
-            }
-        }
-        std::sort(ring_.begin(), ring_.end());
-        ring_.erase(std::unique(ring_.begin(), ring_.end()), ring_.end());
-    }
-
-    void drop(HalfEdge h) { queue_.erase(mesh_.edge_of(h)); }
-
-    void update_faces(std::uint32_t kept) {
-        const Fan& fan = evaluator_.fan();
-        ring_.assign(1, kept);
-        for (std::size_t t = 0; t < fan.ring_size(); ++t) ring_.push_back(fan.vertex(t));
-        for (std::size_t t = 0; t < fan.size(); ++t) {
-            const std::uint32_t after = fan.vertex(t + 1 < fan.ring_size() ? t + 1 : 0);
-            stretch_sum_ += fan.stretch(t) - state_.faces[fan.face(t)].stretch;
-            state_.faces[fan.face(t)] = {fan.normal(t), fan.stretch(t),
-                                         state_.sizes.relative(fan.face_size(t), kept, fan.vertex(t), after)};
-        }
-    }
-
-    /// Every edge with an end in the ring of k, or in that of a flip, has new faces around it, or a neighbour that moved: its
-    /// priority is open again. ring_ is what was touched since the mesh's clock showed `before`.
-    void requeue_around(std::uint32_t k, std::uint32_t before) {
-        open_.clear();
-        for (const std::uint32_t v : ring_) {
-            // No edge of a hub is valid, so none is queued: a walk around it at every collapse beside it would be for nothing.
-            if (mesh_.valence(v) > kValenceCeiling + 1) continue;
-            mesh_.for_each_outgoing(v, [&](HalfEdge h) {
-                const std::uint32_t other = mesh_.target(h);
-                if (other < v && mesh_.changed_at(other) > before) return;  // both ends are in ring_: once is enough
-                const HalfEdge edge = mesh_.edge_of(h);
-                // Neither quadric changed unless an end is k: no place came within reach.
-                if (queue_.is_aside(edge) && other != k && v != k) return;
-                prefetch(state_.quadrics[other]);
-                open_.push_back(edge);
-            });
-        }
-        for (const HalfEdge edge : open_) settle(edge);
     }
 
     /// Stages follow one another: evaluating again between collapses is part of simplifying.
@@ -447,22 +338,18 @@ private:
     const ExecutionContext& context_;
     HalfEdgeMesh mesh_;
     LocalState state_;
-    EdgeQueue queue_;
-    std::vector<std::uint8_t> refusals_;  // by guards, since all edges were evaluated; empty where there are none
+    PolishLimits limits_;
+    std::vector<std::uint8_t> refusals_;  // see Collapser
     CollapseLog log_;
-    std::vector<std::uint32_t> ring_;  // the vertex of the last collapse and those around it
-    std::vector<HalfEdge> open_;       // edges to evaluate again
     std::uint32_t faces_start_ = 0;
     bool reached_floor_ = false;
     std::uint32_t slivers_ = 0;  // at the last polish near the faces asked for
     bool made_room_ = false;
-    double stretch_sum_ = 0;  // of visible faces, kept up by the strict mode
-    bool evaluated_ = false;  // all edges, once
-    EdgeEvaluator<Policy> evaluator_;
-    FanReplacement replacement_;
+    bool evaluated_ = false;                     // all edges, once
+    bool shifted_ = false;                       // where the mesh was cut last
     std::unique_ptr<DeviationGuard> guard_;      // null where there is no bound
     std::unique_ptr<CreaseGuard> crease_guard_;  // null there too, or without creases
-    CreaseReplacement creases_;
+    std::unique_ptr<Collapser<Policy>> collapser_;
     Polisher polisher_;
 };
 

@@ -117,7 +117,7 @@ bool VertexMover::put(std::uint32_t v, const Vec3& place) {
     static_cast<void>(star_.shape_at(place + limits_.centre));
     if (!creases_.try_move(star_, place + limits_.centre)) return false;
     if (guard_ != nullptr && !replacement_.try_on(*guard_, star_, place + limits_.centre, {}, {v, kNone})) return false;
-    log_.record_move(v, mesh_.position(v));
+    log_.record_move(mesh_, v);
     if (state_.sizes.given()) state_.sizes.put(v, state_.sizes.around(mesh_, v, place + limits_.centre));
     mesh_.move(v, place + limits_.centre);
     creases_.commit();
