@@ -30,7 +30,7 @@ const enum At {
   Faces,
   Level,
   Records,
-  RecordsHeld,
+  Undone,
   Changes,
   ChangeCount,
   Error,
@@ -134,8 +134,8 @@ export class Engine {
   get records(): number {
     return this.number(At.Records);
   }
-  get recordsHeld(): number {
-    return this.number(At.RecordsHeld);
+  get undone(): number {
+    return this.number(At.Undone);
   }
   get positions(): Float64Array {
     return new Float64Array(this.exports.memory.buffer, this.number(At.Positions), 3 * this.vertices);

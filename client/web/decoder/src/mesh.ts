@@ -116,6 +116,6 @@ export class ProgressiveMesh {
     this.vertices = engine.corners;
     this.level = engine.level;
     this.records = engine.records;
-    this.recordsUndone = engine.recordsHeld - engine.records;
+    this.recordsUndone = engine.undone;
   }
 }

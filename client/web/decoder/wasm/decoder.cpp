@@ -24,8 +24,8 @@ struct View {
     const std::uint32_t* corners = nullptr;  ///< three a face
     std::uint32_t faces = 0;
     std::uint32_t level = 0;
-    std::uint32_t records = 0;       ///< applied
-    std::uint32_t records_held = 0;  ///< and those that were undone
+    std::uint32_t records = 0;  ///< applied
+    std::uint32_t undone = 0;
     const std::uint32_t* changes = nullptr;
     std::uint32_t change_count = 0;
     const char* error = nullptr;
@@ -65,7 +65,7 @@ void look() {
     View& view = state().view;
     view.level = static_cast<std::uint32_t>(held.mesh().level());
     view.records = static_cast<std::uint32_t>(held.mesh().records());
-    view.records_held = static_cast<std::uint32_t>(held.records().size());
+    view.undone = static_cast<std::uint32_t>(held.undone());
 }
 
 bool done(const Status& status) {

@@ -2,77 +2,54 @@
 
 #include <algorithm>
 #include <cassert>
+#include <variant>
 
 #include "mesh/half_edges.h"
 
 namespace vsplit::web {
 
-void HeldMesh::foresee(std::uint32_t splits) {
-    mesh_.foresee(splits);
-    records_.reserve(records_.splits().size() +
-                         std::min<std::size_t>(splits, ProgressiveMesh::kMostForeseen * mesh_.mesh().positions.size()),
-                     records_.flips().size(), records_.moves().size());
-}
-
 Status HeldMesh::append(RecordCodec& codec, const RecordBlock& block) {
-    apply_to(records_.size());
-    const std::size_t before = records_.size();
-    Status decoded = codec.decode(block, mesh_, &records_);
+    while (!undone_.empty()) redo();
+    const std::size_t before = mesh_.records();
+    Status decoded = codec.decode(block, mesh_);
     if (!decoded || !follows_) return decoded;
-    // Where a record is shows while the mesh stands before it, which the codec does not tell: so it goes there once more.
-    mesh_.rewind(before);
-    apply_to(records_.size());
+    // What a record is about shows while the mesh stands before it, which the codec does not tell: so it goes there once more.
+    while (mesh_.records() > before) undo();
+    while (!undone_.empty()) redo();
     return decoded;
 }
 
-void HeldMesh::apply_to(std::size_t records) {
-    if (records <= mesh_.records()) return;
-    const RecordSpan span = records_.slice(mesh_.records(), records - mesh_.records());
-    if (!follows_) {
-        [[maybe_unused]] const Status applied = mesh_.refine(span);
-        assert(applied.has_value());
-        return;
-    }
-    for_each_record(span, [this](const auto& record) {
-        note(record);
-        [[maybe_unused]] const Status applied = mesh_.refine(record);
-        assert(applied.has_value());
-    });
+void HeldMesh::undo() {
+    undone_.push_back(mesh_.last());
+    mesh_.rewind(mesh_.records() - 1);
+    if (follows_) std::visit([this](const auto& record) { note(record); }, undone_.back());
 }
 
-void HeldMesh::undo_to(std::size_t records) {
-    if (!follows_) return mesh_.rewind(records);
-    if (records >= mesh_.records()) return;
-    const RecordSpan span = records_.slice(records, mesh_.records() - records);
-    auto split = span.splits.end();
-    auto flip = span.flips.end();
-    auto move = span.moves.end();
-    for (std::size_t n = span.size(); n-- > 0;) {
-        mesh_.rewind(records + n);
-        if (span.kinds[n] == RecordKind::kSplit) {
-            note(*--split);
-        } else if (span.kinds[n] == RecordKind::kFlip) {
-            note(*--flip);
-        } else {
-            note(*--move);
-        }
-    }
+void HeldMesh::redo() {
+    std::visit(
+        [this](const auto& record) {
+            if (follows_) note(record);
+            [[maybe_unused]] const Status applied = mesh_.refine(record);
+            assert(applied.has_value());
+        },
+        undone_.back());
+    undone_.pop_back();
 }
 
-void HeldMesh::coarsen(std::uint32_t levels) {
-    const std::size_t left = mesh_.level() - std::min<std::size_t>(levels, mesh_.level());
-    const std::size_t records = left == 0 ? 0 : records_.record_of_split(left - 1) + 1;
-    undo_to(records);
+void HeldMesh::coarsen(std::size_t levels) {
+    const std::size_t target = mesh_.level() - std::min(levels, mesh_.level());
+    const auto is_split = [this] { return std::holds_alternative<VertexSplit>(mesh_.last()); };
+    while (mesh_.records() > 0 && (mesh_.level() > target || !is_split())) undo();
 }
 
-void HeldMesh::refine(std::uint32_t level) {
-    if (level <= mesh_.level()) return;
-    apply_to(level <= records_.splits().size() ? records_.record_of_split(level - 1) + 1 : records_.size());
+void HeldMesh::refine(std::size_t level) {
+    while (!undone_.empty() && mesh_.level() < level) redo();
 }
 
-void HeldMesh::rewind(std::uint32_t records) {
-    undo_to(records);
-    records_.truncate(mesh_.records());
+void HeldMesh::rewind(std::size_t records) {
+    if (!follows_) mesh_.rewind(records);
+    while (mesh_.records() > records) undo();
+    undone_.clear();
 }
 
 void HeldMesh::note(const VertexSplit& split) {
