@@ -1,4 +1,4 @@
-import { Engine } from "./engine.js";
+import { sharedEngine } from "./engine.js";
 import type { Grid } from "./grid.js";
 import type { ProgressiveMesh } from "./mesh.js";
 
@@ -15,7 +15,7 @@ export interface RecordBlock {
 export class RecordDecoder {
   /** Throws CorruptError for a grid that no stream can have. */
   constructor(readonly grid: Grid) {
-    new Engine().setGrid(grid);
+    sharedEngine().setGrid(grid);
   }
 
   /**

@@ -166,3 +166,10 @@ export class Engine {
     throw new CorruptError(new TextDecoder().decode(new Uint8Array(this.exports.memory.buffer, this.number(At.Error), this.number(At.ErrorSize))));
   }
 }
+
+let shared: Engine | undefined;
+
+/** One that stays, for what needs no mesh and little memory. */
+export function sharedEngine(): Engine {
+  return (shared ??= new Engine());
+}

@@ -142,12 +142,12 @@ function withoutPlaces(payload: Uint8Array): Uint8Array {
 }
 
 for (const name of names.filter((name) => !name.includes("float64"))) {
-  test(`${name}: a block without its places is refused before anything changes`, () => {
+  test(`${name}: a block without its places is refused, and nothing changes`, () => {
     const { base, grid, blocks } = read(name);
     const before = state(base);
     const payload = withoutPlaces(blocks[0]!.block.payload);
     const block = { ...blocks[0]!.block, payload, crc32c: crc32c(payload) };
-    assert.throws(() => new RecordDecoder(grid).decode(block, base), /from record 0 on: the columns of places are too short/);
+    assert.throws(() => new RecordDecoder(grid).decode(block, base), /from record 0 on: record 0: its columns are too short/);
     assert.equal(state(base), before);
   });
 }

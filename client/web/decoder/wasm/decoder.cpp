@@ -1,5 +1,5 @@
-// What the module exports: one mesh an instance, so that its memory goes when the instance does. Bytes come in through `room`; what
-// can fail returns whether it was done, and the view says why not. TypeScript (src/engine.ts) is the only caller.
+// What the module exports: one mesh an instance, so that its memory goes when the instance does. Bytes come in through `room`;
+// what can fail returns whether it was done, and the view says why not. TypeScript (src/engine.ts) is the only caller.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -79,9 +79,12 @@ bool done(const Status& status) {
 
 Expected<PositionGrid> grid_of(std::uint32_t encoding, std::uint32_t bits, const Vec3& origin, double step) {
     switch (RecordEncoding{encoding}) {
-        case RecordEncoding::kFloat64: return PositionGrid();
-        case RecordEncoding::kFloat32: return PositionGrid::float32();
-        case RecordEncoding::kQuantised: return PositionGrid::quantised(bits, origin, step);
+        case RecordEncoding::kFloat64:
+            return PositionGrid();
+        case RecordEncoding::kFloat32:
+            return PositionGrid::float32();
+        case RecordEncoding::kQuantised:
+            return PositionGrid::quantised(bits, origin, step);
     }
     return Error{Cause::kCorrupt, "encoding " + std::to_string(encoding) + " is unknown; 1, 2 and 3 are known", ""};
 }

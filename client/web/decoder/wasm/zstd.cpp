@@ -1,5 +1,5 @@
-// What core uses of zstd, where zstd itself is not there: the frames of columns are unpacked by who imports this module, and nothing
-// is packed.
+// What core uses of zstd, where zstd itself is not there: the frames of columns are unpacked by who imports this module, and
+// nothing is packed.
 #include <zstd.h>
 
 #include <cstdint>
@@ -9,8 +9,10 @@
 namespace {
 
 /// \return how many bytes it was, which are at `to` when they are `room`; any other number where that is no whole frame.
-__attribute__((import_module("decoder"), import_name("unpack_frame"))) extern "C" std::size_t unpack_frame(void* to, std::size_t room,
-                                                                                               const void* from, std::size_t size);
+__attribute__((import_module("decoder"), import_name("unpack_frame"))) extern "C" std::size_t unpack_frame(void* to,
+                                                                                                           std::size_t room,
+                                                                                                           const void* from,
+                                                                                                           std::size_t size);
 
 template <class Number>
 unsigned long long number_at(const std::byte* from) {
