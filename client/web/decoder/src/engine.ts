@@ -53,10 +53,10 @@ class Room extends Uint8Array {
   }
 }
 
-/** How many bytes a zstd frame makes, into `to`; NaN, which is 0 there, where it is none. */
-function unpackFrame(frame: Uint8Array, to: Uint8Array): number {
+/** Unpacks a zstd frame from one place of a memory to another. Returns how many bytes came of it; NaN, which is 0 there, where it is none. */
+function unpackFrame(memory: ArrayBuffer, to: number, room: number, from: number, size: number): number {
   try {
-    return decompress(frame, to).length;
+    return decompress(new Uint8Array(memory, from >>> 0, size >>> 0), new Room(memory, to >>> 0, room >>> 0)).length;
   } catch {
     return NaN;
   }
@@ -75,9 +75,8 @@ export class Engine {
     const decoder = {
       random: () => Math.floor(Math.random() * 2 ** 32),
       number_text: (value: number, to: number, room: number) =>
-        new TextEncoder().encodeInto(String(Number(value.toPrecision(6))), new Uint8Array(memory(), to, room)).written,
-      unpack_frame: (to: number, room: number, from: number, size: number) =>
-        unpackFrame(new Uint8Array(memory(), from >>> 0, size), new Room(memory(), to >>> 0, room)),
+        new TextEncoder().encodeInto(String(Number(value.toPrecision(6))), new Uint8Array(memory(), to >>> 0, room)).written,
+      unpack_frame: (to: number, room: number, from: number, size: number) => unpackFrame(memory(), to, room, from, size),
     };
     this.exports = new WebAssembly.Instance(module(), { decoder }).exports as unknown as Exports;
     this.exports._initialize();
