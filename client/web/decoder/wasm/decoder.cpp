@@ -1,7 +1,5 @@
-// What the module exports: one mesh an instance, so that its memory goes when the instance does. Bytes come in through `room`;
-// what can fail returns whether it was done, and the view says why not. TypeScript (src/engine.ts) is the only caller.
-#include <algorithm>
-#include <cstdint>
+#include "decoder.h"
+
 #include <cstring>
 #include <optional>
 #include <span>
@@ -12,25 +10,8 @@
 #include "vsplit/mrr/base_codec.h"
 #include "vsplit/mrr/record_codec.h"
 
-#define VSPLIT_EXPORT(name) extern "C" __attribute__((export_name(#name)))
-
 namespace vsplit::web {
 namespace {
-
-/// What the caller reads after each call: addresses and numbers, all of 32 bits.
-struct View {
-    const double* positions = nullptr;  ///< three a vertex
-    std::uint32_t vertices = 0;
-    const std::uint32_t* corners = nullptr;  ///< three a face
-    std::uint32_t faces = 0;
-    std::uint32_t level = 0;
-    std::uint32_t records = 0;  ///< applied
-    std::uint32_t undone = 0;
-    const std::uint32_t* changes = nullptr;
-    std::uint32_t change_count = 0;
-    const char* error = nullptr;
-    std::uint32_t error_size = 0;
-};
 
 struct State {
     RecordBlock block;  // its payload is the room for bytes that come in
@@ -95,7 +76,7 @@ TriangleMesh plain_base(std::uint32_t vertices, std::uint32_t faces) {
     base.positions.resize(vertices);
     base.faces.resize(faces);
     const std::byte* const from = incoming().data();
-    std::memcpy(base.positions.data(), from, vertices * sizeof(Vec3));
+    std::memcpy(static_cast<void*>(base.positions.data()), from, vertices * sizeof(Vec3));
     std::memcpy(base.faces.data(), from + vertices * sizeof(Vec3), faces * sizeof(Triangle));
     return base;
 }
@@ -110,20 +91,16 @@ Status begin(TriangleMesh base, std::uint32_t ghosts) {
 
 }  // namespace
 
-/// The same at every call.
-VSPLIT_EXPORT(view) const View* view() { return &state().view; }
+const View* view() { return &state().view; }
 
-/// Where so many bytes go that the next call is about.
-VSPLIT_EXPORT(room) char* room(std::uint32_t bytes) {
+char* room(std::uint32_t bytes) {
     state().block.payload.resize(bytes);
     return state().block.payload.data();
 }
 
-/// Of the bytes in `room`, which go on after those whose checksum was `before`; 0 where there are none.
-VSPLIT_EXPORT(crc32c) std::uint32_t checksum(std::uint32_t before) { return crc32c(incoming(), before); }
+std::uint32_t checksum(std::uint32_t before) { return crc32c(incoming(), before); }
 
-/// The grid of what follows.
-VSPLIT_EXPORT(grid) bool set_grid(std::uint32_t encoding, std::uint32_t bits, double x, double y, double z, double step) {
+bool set_grid(std::uint32_t encoding, std::uint32_t bits, double x, double y, double z, double step) {
     const Expected<PositionGrid> grid = grid_of(encoding, bits, {x, y, z}, step);
     if (!grid) return done(grid.error());
     if (*grid == state().grid) return true;
@@ -132,8 +109,7 @@ VSPLIT_EXPORT(grid) bool set_grid(std::uint32_t encoding, std::uint32_t bits, do
     return true;
 }
 
-/// Unpacks a base mesh, which then is in the view.
-VSPLIT_EXPORT(unpack_base) bool unpack(std::uint32_t vertices, std::uint32_t faces, std::uint32_t ghosts) {
+bool unpack(std::uint32_t vertices, std::uint32_t faces, std::uint32_t ghosts) {
     Expected<TriangleMesh> base = unpack_base({incoming(), vertices, faces, ghosts}, state().grid);
     if (!base) return done(base.error());
     state().base = *std::move(base);
@@ -141,20 +117,16 @@ VSPLIT_EXPORT(unpack_base) bool unpack(std::uint32_t vertices, std::uint32_t fac
     return true;
 }
 
-/// Begins with the base mesh in `room`: positions, then corners.
-VSPLIT_EXPORT(begin) bool begin_plain(std::uint32_t vertices, std::uint32_t faces, std::uint32_t ghosts) {
+bool begin_plain(std::uint32_t vertices, std::uint32_t faces, std::uint32_t ghosts) {
     return done(begin(plain_base(vertices, faces), ghosts));
 }
 
-// The others want a mesh that has begun.
-
-VSPLIT_EXPORT(foresee) void foresee(std::uint32_t splits) {
+void foresee(std::uint32_t splits) {
     state().held->foresee(splits);
     look();
 }
 
-/// A block whose payload is in `room`.
-VSPLIT_EXPORT(append) bool append(std::uint32_t first, std::uint32_t count, std::uint32_t encoding, std::uint32_t crc) {
+bool append(std::uint32_t first, std::uint32_t count, std::uint32_t encoding, std::uint32_t crc) {
     RecordBlock& block = state().block;
     block.first = first;
     block.count = count;
@@ -165,25 +137,24 @@ VSPLIT_EXPORT(append) bool append(std::uint32_t first, std::uint32_t count, std:
     return appended;
 }
 
-VSPLIT_EXPORT(coarsen) void coarsen(std::uint32_t levels) {
+void coarsen(std::uint32_t levels) {
     state().held->coarsen(levels);
     look();
 }
 
-VSPLIT_EXPORT(refine) void refine(std::uint32_t level) {
+void refine(std::uint32_t level) {
     state().held->refine(level);
     look();
 }
 
-VSPLIT_EXPORT(rewind) void rewind_to(std::uint32_t records) {
+void rewind_to(std::uint32_t records) {
     state().held->rewind(records);
     look();
 }
 
-VSPLIT_EXPORT(follow) void follow() { state().held->follow(); }
+void follow() { state().held->follow(); }
 
-/// Then they are in the view.
-VSPLIT_EXPORT(changes) void changes() {
+void changes() {
     const std::vector<std::uint32_t>& faces = state().held->take_changes();
     state().view.changes = faces.data();
     state().view.change_count = static_cast<std::uint32_t>(faces.size());
