@@ -69,7 +69,7 @@ bool RandomEditor::may_flip(HalfEdge h) const {
 }
 
 void RandomEditor::move(std::uint32_t v, const Vec3& to) {
-    log_.record_move(v, mesh_.position(v));
+    log_.record_move(mesh_, v);
     mesh_.move(v, to);
 }
 

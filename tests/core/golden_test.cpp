@@ -1,5 +1,5 @@
 // The golden files of tests/data/golden never change: what a version of this library wrote, every later one reads, and so do the
-// decoders in other languages (client/web/decoder). A new encoding adds files: VSPLIT_WRITE_GOLDEN=DIRECTORY golden_test writes
+// decoders for other languages (client/web/decoder). A new encoding adds files: VSPLIT_WRITE_GOLDEN=DIRECTORY golden_test writes
 // all that this version makes.
 #include <gtest/gtest.h>
 

@@ -131,6 +131,7 @@ TEST(ProgressiveMeshTest, EveryRecordIsUndoneByteForByte) {
         ASSERT_TRUE(inspect(mesh->mesh()).closed);
     }
     for (std::size_t n = mrr.records.size(); n-- > 0;) {
+        ASSERT_EQ(mesh->last(), mrr.records[n]) << "what is undone can be had back";
         mesh->rewind(n);
         ASSERT_EQ(mesh->records(), n);
         ASSERT_EQ(mesh->mesh(), states[n]);

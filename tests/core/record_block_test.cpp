@@ -65,6 +65,9 @@ TEST(RecordBlockTest, Crc32cOfTheCheckString) {
         crc ^= static_cast<std::uint32_t>(bytes.back());
         for (int bit = 0; bit < 8; ++bit) crc = crc >> 1U ^ ((crc & 1U) != 0 ? 0x82F63B78U : 0U);
         ASSERT_EQ(crc32c(bytes), ~crc) << length;
+        const auto [front, rest] =
+            std::pair(std::span(bytes).first(bytes.size() / 3), std::span(bytes).subspan(bytes.size() / 3));
+        ASSERT_EQ(crc32c(rest, crc32c(front)), ~crc) << length;
         ASSERT_EQ(crc32c(std::span(bytes).subspan(bytes.size() / 2)),
                   crc32c(std::vector(bytes.begin() + length / 2, bytes.end())));
     }

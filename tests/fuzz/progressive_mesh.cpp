@@ -73,6 +73,7 @@ void try_record(ProgressiveMesh& mesh, const RecordList& record) {
         return;
     }
     fuzz::check(mesh.mesh().face_count() == before.face_count() + 2 * record.splits().size(), "a split makes two faces");
+    fuzz::check(mesh.last() == record[0], "the last record is the one that fitted");
     mesh.rewind(records);
     fuzz::check(mesh.mesh() == before, "a record is undone exactly");
     fuzz::check(static_cast<bool>(mesh.refine(record)), "a record that fitted fits again");

@@ -1,6 +1,8 @@
 #include "vsplit/mrr/base_codec.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <utility>
 
 #include "mrr/base_coder.h"
@@ -13,7 +15,7 @@ constexpr std::size_t kHeaderBytes = 2;  // bits a coordinate; how
 constexpr char kWalk = 0, kPlain = 1;
 
 /// What the columns unpack to at most: a vertex three coordinates, a face three numbers, with all their bits.
-constexpr std::size_t kMostVertexBytes = 24, kMostFaceBytes = 24;
+constexpr std::uint64_t kMostVertexBytes = 24, kMostFaceBytes = 24;
 
 bool goes_as_the_walk(const TriangleMesh& base, std::uint32_t ghosts) {
     const std::vector<HalfEdge> twins = half_edge_twins(base);
@@ -67,8 +69,10 @@ Expected<TriangleMesh> unpack_base(const PackedBase& packed, const PositionGrid&
     const char how = static_cast<char>(packed.bytes[1]);
     if (how != kWalk && how != kPlain) return corrupt("its layout is unknown");
     ColumnReader columns;
-    const std::size_t most = packed.vertices * kMostVertexBytes + packed.faces * kMostFaceBytes;
-    if (Status unpacked = columns.unpack(packed.bytes.subspan(kHeaderBytes), most); !unpacked)
+    // No more than half of what there is to address, where that is 32 bits.
+    const std::uint64_t most =
+        std::min<std::uint64_t>(packed.vertices * kMostVertexBytes + packed.faces * kMostFaceBytes, PTRDIFF_MAX);
+    if (Status unpacked = columns.unpack(packed.bytes.subspan(kHeaderBytes), static_cast<std::size_t>(most)); !unpacked)
         return corrupt(unpacked.error().message);
     TriangleMesh mesh;
     const bool made = grid.encoding() == RecordEncoding::kFloat32

@@ -29,12 +29,12 @@ public:
     [[nodiscard]] bool at_end() const { return left_.empty(); }
     [[nodiscard]] std::size_t left() const { return left_.size(); }
     /// False at the end of the payload or beyond 32 bits.
-    [[nodiscard]] bool varint(std::size_t& value) {
+    [[nodiscard]] bool varint(std::uint64_t& value) {
         value = 0;
         for (unsigned shift = 0; shift < 35 && !left_.empty(); shift += 7) {
             const auto byte = static_cast<std::uint8_t>(left_.front());
             left_ = left_.subspan(1);
-            value |= std::size_t{byte & 0x7FU} << shift;
+            value |= std::uint64_t{byte & 0x7FU} << shift;
             if (byte < 0x80) return value >> 32U == 0;
         }
         return false;
@@ -104,12 +104,12 @@ Status ColumnReader::unpack(std::span<const std::byte> payload, std::size_t most
     for (PayloadReader reader(payload); !reader.at_end();) {
         Stored next;
         next.column = static_cast<std::uint8_t>(reader.take(1).front());
-        std::size_t size = 0;
+        std::uint64_t size = 0;
         if (!reader.varint(size) || size / 2 > reader.left()) return corrupt("a column does not end where its block does");
         if (next.column >= column::kAll || (!stored.empty() && next.column <= stored.back().column))
             return corrupt("column " + std::to_string(next.column) + " where a higher one up to 145 is due");
         next.compressed = size % 2 != 0;
-        next.bytes = reader.take(size / 2);
+        next.bytes = reader.take(static_cast<std::size_t>(size / 2));
         const unsigned long long content =
             next.compressed ? ZSTD_getFrameContentSize(next.bytes.data(), next.bytes.size()) : next.bytes.size();
         if (content == 0 || content > most - total) {  // also what zstd says where it finds no size

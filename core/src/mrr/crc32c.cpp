@@ -59,6 +59,6 @@ std::uint32_t update(std::uint32_t crc, std::span<const std::byte> bytes) { retu
 
 }  // namespace
 
-std::uint32_t crc32c(std::span<const std::byte> bytes) { return ~update(0xFFFFFFFFU, bytes); }
+std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t before) { return ~update(~before, bytes); }
 
 }  // namespace vsplit

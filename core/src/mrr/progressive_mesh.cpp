@@ -293,6 +293,20 @@ void ProgressiveMesh::undo_split() {
     if (!border_splits_.empty() && border_splits_.back() == level_) border_splits_.pop_back();
 }
 
+VertexSplit ProgressiveMesh::last_split() const {
+    const auto first = static_cast<HalfEdge>(twin_.size() - 6);
+    const HalfEdge fan_end = twin_[first + 1];
+    VertexSplit split{twin_[first + 5], 1, mesh_.positions[origin(mesh_, first)], mesh_.positions.back()};
+    for (HalfEdge corner = split.anchor; prev(corner) != fan_end; corner = twin_[prev(corner)]) ++split.steps;
+    return split;
+}
+
+Record ProgressiveMesh::last() const {
+    if (applied_.back() == RecordKind::kSplit) return last_split();
+    if (applied_.back() == RecordKind::kFlip) return EdgeFlip{edited_.back()};
+    return VertexMove{edited_.back(), mesh_.positions[edited_.back()]};
+}
+
 void ProgressiveMesh::undo_last() {
     const RecordKind kind = applied_.back();
     applied_.pop_back();

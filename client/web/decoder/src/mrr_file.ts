@@ -2,7 +2,6 @@ import { unpackBase, type BaseMesh } from "./base.js";
 import type { RecordBlock } from "./block.js";
 import { crc32c } from "./crc32c.js";
 import { Encoding, float64Grid, type Grid } from "./grid.js";
-import { Kind } from "./mesh.js";
 
 /** Why a file is refused, as core names it. */
 export type FileFault = "UNKNOWN_FORMAT" | "UNSUPPORTED" | "TRUNCATED_INPUT" | "CORRUPT";
@@ -15,6 +14,8 @@ export class MrrFileError extends Error {
   }
 }
 
+/** The kind of a record that is a split. */
+const split = 0;
 const mark = [0x89, 0x56, 0x53, 0x50, 0x0d, 0x0a, 0x1a, 0x0a];
 const newest = 3;
 const regionsTag = [0x52, 0x45, 0x47, 0x4e];
@@ -139,14 +140,14 @@ export class MrrFile {
 
   /** All records in order, a block at a time. */
   *blocks(): Generator<RecordBlock, void> {
-    let last: number = Kind.Split, end = this.sections.blocks;
+    let last = split, end = this.sections.blocks;
     for (const { first, count, encoding, offset, bytes, crc32c } of this.places()) {
       const payload = this.bytes.subarray(offset, offset + bytes);
       yield { first, count, encoding, payload, crc32c };
       end = offset + bytes;
       if (encoding === Encoding.Float64) last = payload[count - 1]!;
     }
-    if (last !== Kind.Split) throw new MrrFileError("CORRUPT", end, `the last of ${this.records} records is no split; edits stand before a split`);
+    if (last !== split) throw new MrrFileError("CORRUPT", end, `the last of ${this.records} records is no split; edits stand before a split`);
     this.checkEnd(end);
   }
 

@@ -9,7 +9,6 @@ export class HeldMesh {
   private readonly ghostFaces: number[] = [];
   private facesLooked = 0;
   private readonly baseFaces: number;
-  private readonly touched = new Set<number>();
 
   /** `splits`: how many are announced. */
   constructor(base: { positions: Float64Array; corners: Uint32Array; ghosts: number }, grid: Grid, splits = 0) {
@@ -17,12 +16,11 @@ export class HeldMesh {
     this.mesh.foresee(splits);
     this.decoder = new RecordDecoder(grid);
     this.baseFaces = this.mesh.faceCount;
-    this.mesh.touched = (vertex) => this.touched.add(vertex);
+    this.mesh.follow();
     this.lookAtNewFaces();
   }
 
   take(block: RecordBlock): void {
-    this.mesh.refineAll();
     this.decoder.decode(block, this.mesh);
     this.lookAtNewFaces();
   }
@@ -60,19 +58,7 @@ export class HeldMesh {
 
   /** Faces that changed since it was asked last, ascending. */
   takeChanges(): Uint32Array {
-    const { mesh } = this;
-    const faces = new Set<number>();
-    for (const vertex of this.touched) {
-      if (vertex >= mesh.vertexCount) continue;
-      const start = mesh.cornerOf[vertex]!;
-      let corner = start;
-      do {
-        faces.add(Math.floor(corner / 3));
-        corner = mesh.after(corner);
-      } while (corner !== start);
-    }
-    this.touched.clear();
-    return Uint32Array.from(faces).sort();
+    return this.mesh.takeChanges();
   }
 
   private lookAtNewFaces(): void {

@@ -65,6 +65,9 @@ public:
     /// Undoes records until `records` of those applied are left; nothing when there are no more than that. O(as coarsen).
     void rewind(std::size_t records);
 
+    /// The record applied last, as it can be applied again once it is undone. \pre records() > 0. O(its steps).
+    [[nodiscard]] Record last() const;
+
     /// Splits applied so far.
     [[nodiscard]] std::size_t level() const { return level_; }
 
@@ -88,17 +91,26 @@ public:
     /// Splits applied so far that added one visible face; see MultiresMesh.
     [[nodiscard]] const std::vector<std::uint32_t>& border_splits() const { return border_splits_; }
 
+    /// WebAssembly has no way to ask for memory but to read it; who does not look at what is read does not wait for it.
+    static void prefetch(const void* place) {
+#ifdef __wasm__
+        static_cast<void>(*static_cast<const volatile char*>(place));
+#else
+        __builtin_prefetch(place);
+#endif
+    }
+
     /// Ask for the memory that corner_of, a position, or the face of a corner lies in; harmless where that is not needed after
     /// all.
-    void prefetch_corner_of(std::uint32_t vertex) const { __builtin_prefetch(corner_of_.data() + vertex); }
+    void prefetch_corner_of(std::uint32_t vertex) const { prefetch(corner_of_.data() + vertex); }
     void prefetch_position(std::uint32_t vertex) const {
         const double* const position = mesh_.positions.data()[vertex].data();
-        __builtin_prefetch(position);
-        __builtin_prefetch(position + 2);  // a quarter of them lie in two cache lines
+        prefetch(position);
+        prefetch(position + 2);  // a quarter of them lie in two cache lines
     }
     void prefetch_corner(std::uint32_t corner) const {
-        __builtin_prefetch(mesh_.faces.data()->data() + corner);
-        __builtin_prefetch(twin_.data() + corner);
+        prefetch(mesh_.faces.data()->data() + corner);
+        prefetch(twin_.data() + corner);
     }
 
 private:
@@ -126,6 +138,7 @@ private:
 
     void note_corners_beside(std::uint32_t half_edge);
 
+    [[nodiscard]] VertexSplit last_split() const;
     void undo_split();
     void undo_last();
 

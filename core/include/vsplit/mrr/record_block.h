@@ -41,7 +41,7 @@ inline constexpr std::size_t kMaxBlockBytes = std::size_t{256} * 1024;
 /// encoding does not fit. Whether the records fit a mesh is for ProgressiveMesh::refine to say. O(records).
 [[nodiscard]] Expected<RecordList> decode_block(const RecordBlock& block);
 
-/// CRC-32C of bytes.
-[[nodiscard]] std::uint32_t crc32c(std::span<const std::byte> bytes);
+/// CRC-32C of bytes, or of those whose checksum was `before` with these behind them.
+[[nodiscard]] std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 }  // namespace vsplit
