@@ -197,7 +197,7 @@ TEST_F(CollapseLogStepTest, EachStepHasItsOwnMoves) {
 TEST_F(CollapseLogStepTest, WhatCameBeforeTheFirstCollapseIsForgotten) {
     log_.clear();
     log_.record_flip(200);
-    log_.record_move(7, Vec3(9, 9, 9));
+    log_.record_move(mesh_, 7);
     EXPECT_EQ(log_.size(), 0U);
     const MultiresMesh mrr = log_.build(mesh_);
     EXPECT_TRUE(mrr.records.empty());

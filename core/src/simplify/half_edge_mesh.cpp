@@ -71,7 +71,7 @@ void HalfEdgeMesh::collapse(const EdgeStar& s, const Vec3& position) {
     --valence_[e];
     --valence_[b];
     positions_[i] = position;
-    live_faces_.fetch_sub(std::min(e, b) < ghosts_ ? 1 : 2, std::memory_order_relaxed);
+    live_faces_.take(std::min(e, b) < ghosts_ ? 1 : 2);
 }
 
 void HalfEdgeMesh::flip(HalfEdge h) {

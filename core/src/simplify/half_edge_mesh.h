@@ -19,6 +19,25 @@ struct EdgeStar {
     HalfEdge bi = 0, jb = 0;          ///< twins of ib and bj
 };
 
+/// A number that threads change at the same time. A copy is of what it is then.
+class SharedCount {
+public:
+    explicit SharedCount(std::uint32_t value = 0) : value_(value) {}
+    SharedCount(const SharedCount& other) : value_(other.get()) {}
+    SharedCount& operator=(const SharedCount& other) {
+        value_.store(other.get(), std::memory_order_relaxed);
+        return *this;
+    }
+    ~SharedCount() = default;
+
+    [[nodiscard]] std::uint32_t get() const { return value_.load(std::memory_order_relaxed); }
+    void add(std::uint32_t more) { value_.fetch_add(more, std::memory_order_relaxed); }
+    void take(std::uint32_t fewer) { value_.fetch_sub(fewer, std::memory_order_relaxed); }
+
+private:
+    std::atomic<std::uint32_t> value_;
+};
+
 /// Connectivity of a closed 2-manifold that never gets finer: 24 bytes a face, faces and vertices keep their numbers.
 /// Positions live here too, since every walk needs them.
 class HalfEdgeMesh {
@@ -33,7 +52,7 @@ public:
     [[nodiscard]] bool is_ghost(std::uint32_t v) const { return v < ghosts_; }
 
     /// Visible ones: those at a ghost do not count.
-    [[nodiscard]] std::uint32_t live_faces() const { return live_faces_.load(std::memory_order_relaxed); }
+    [[nodiscard]] std::uint32_t live_faces() const { return live_faces_.get(); }
 
     [[nodiscard]] std::uint32_t origin(HalfEdge h) const { return half_edges_[h].origin; }
     [[nodiscard]] std::uint32_t target(HalfEdge h) const { return half_edges_[next(h)].origin; }
@@ -88,7 +107,7 @@ public:
 
     /// Counts flips, moves and calls of touch_around. Threads that change parts of the mesh at the same time share it: what a
     /// part changes is later than what the clock showed before, to the thread that looked.
-    [[nodiscard]] std::uint32_t clock() const { return clock_.load(std::memory_order_relaxed); }
+    [[nodiscard]] std::uint32_t clock() const { return clock_.get(); }
     /// The clock when a face at v changed last by one of these. A collapse leaves it to its caller, who has the ring at hand.
     [[nodiscard]] std::uint32_t changed_at(std::uint32_t v) const { return changed_at_[v]; }
     void touch(std::uint32_t v) { changed_at_[v] = clock(); }
@@ -110,7 +129,7 @@ public:
 
 private:
     HalfEdgeMesh(const TriangleMesh& mesh, const std::vector<HalfEdge>& twins, std::uint32_t ghosts);
-    void tick() { clock_.fetch_add(1, std::memory_order_relaxed); }
+    void tick() { clock_.add(1); }
     void pair(HalfEdge h, HalfEdge g) {
         half_edges_[h].twin = g;
         half_edges_[g].twin = h;
@@ -144,9 +163,9 @@ private:
     std::vector<std::uint32_t> valence_;
     std::vector<Vec3> positions_;
     std::vector<std::uint32_t> changed_at_;
-    std::atomic<std::uint32_t> clock_ = 0;
+    SharedCount clock_;
     std::uint32_t ghosts_ = 0;
-    std::atomic<std::uint32_t> live_faces_ = 0;
+    SharedCount live_faces_;
 };
 
 }  // namespace vsplit
