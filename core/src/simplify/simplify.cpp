@@ -289,6 +289,7 @@ private:
         const MeshParts parts(mesh_, shifted_ = !shifted_);
         if (parts.count() == 1 || !has_collapses_above(faces)) return;
         std::fill(refusals_.begin(), refusals_.end(), std::uint8_t{0});
+        report_evaluated(0);
         collapser_->queue() = EdgeQueue(0, 0);  // its memory goes to those of the parts
         const double collapses = parts.deep_share() * (mesh_.live_faces() - faces) / 2;
         PartedCollapse<Policy>(setting(), guards(), log_, parts, context_).run(static_cast<std::size_t>(collapses), [this] {
@@ -317,8 +318,7 @@ private:
         };
         tbb::parallel_for(tbb::blocked_range<HalfEdge>(0, mesh_.half_edge_count(), 2048), evaluate_range);
         if (context_.cancelled()) return ExecutionContext::cancelled_error();
-        report_evaluated(1);
-        evaluated_ = true;
+        note_evaluated();
         queue.open_all();
         return Done{};
     }
@@ -326,6 +326,11 @@ private:
     /// Stages follow one another: evaluating again between collapses is part of simplifying.
     void report_evaluated(double fraction) const {
         if (!evaluated_) context_.report({"evaluate", fraction, mesh_.live_faces()});
+    }
+
+    void note_evaluated() {
+        report_evaluated(1);
+        evaluated_ = true;
     }
 
     void report_simplified() const {
