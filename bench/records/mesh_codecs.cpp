@@ -6,6 +6,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -86,7 +87,8 @@ std::string encode_meshoptimizer(const TriangleMesh& mesh) {
     std::vector<GridVertex> vertices(mesh.positions.size());
     for (std::size_t v = 0; v < vertices.size(); ++v) {
         for (int axis = 0; axis < 3; ++axis)
-            vertices[v].xyz[axis] = static_cast<std::uint16_t>((mesh.positions[v][axis] - box.min[axis]) / front.step + 0.5);
+            vertices[v].xyz[axis] =
+                static_cast<std::uint16_t>(std::lround((mesh.positions[v][axis] - box.min[axis]) / front.step));
     }
     std::vector<unsigned> indices;
     for (const Triangle& face : mesh.faces) indices.insert(indices.end(), face.begin(), face.end());

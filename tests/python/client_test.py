@@ -92,6 +92,20 @@ def cut_before(stream, kind, times):
     return call
 
 
+def damaged_base(stream):
+    """The rpc `stream`, with a bit of its packed base mesh turned."""
+
+    def call(request):
+        for event in stream(request):
+            if event.base_mesh.packed:
+                packed = bytearray(event.base_mesh.packed)
+                packed[-3] ^= 1
+                event.base_mesh.packed = bytes(packed)
+            yield event
+
+    return call
+
+
 class Counted:
     """The rpc `stream`, with the bytes that it brought and the keyframes among them."""
 
@@ -338,6 +352,27 @@ class ClientTest(unittest.TestCase):
         finally:
             self.client._stub.SetResolution = stream
         self.client.delete(session)
+
+    def test_a_damaged_base_mesh_is_refused(self):
+        made = self.client.improve(self.session, faces=500).representation
+        stream = self.client._stub.SetResolution
+        self.client._stub.SetResolution = damaged_base(stream)
+        try:
+            with self.assertRaisesRegex(vsplit.CorruptError, "base mesh: its CRC-32C does not fit"):
+                self.client.open(self.session, made.id, encoding="quantised", bits=14)
+        finally:
+            self.client._stub.SetResolution = stream
+
+    def test_no_resolution_is_refused_and_nothing_is_lost(self):
+        improved = self.client.improve(self.session, faces=500)
+        for shown in (improved, vsplit.load(DATA / "golden" / "file_1_closed.vsplit")):
+            before = shown.at(np.uint32(400))
+            for faces in (-1, 0, 2**32 + 400):
+                with self.assertRaisesRegex(ValueError, f"faces is {faces}; accepted is"):
+                    shown.at(faces)
+            with self.assertRaises(TypeError):
+                shown.at(400.5)
+            np.testing.assert_array_equal(shown.at(400)[1], before[1])
 
     def test_a_far_jump_takes_a_keyframe_where_that_is_less_to_receive(self):
         session = self.client.upload(box_obj(5))  # with a ghost and regions

@@ -156,10 +156,12 @@ int vsplit_decoder_begin_keyframe(vsplit_decoder* decoder, const double* positio
     });
 }
 
-int vsplit_decoder_begin_packed(vsplit_decoder* decoder, const std::uint8_t* bytes, std::size_t size, std::uint32_t vertices,
-                                std::uint32_t faces, std::uint32_t ghosts, std::uint32_t encoding, std::uint32_t bits,
-                                const double* origin, double step) {
+int vsplit_decoder_begin_packed(vsplit_decoder* decoder, const std::uint8_t* bytes, std::size_t size, std::uint32_t crc32c,
+                                std::uint32_t vertices, std::uint32_t faces, std::uint32_t ghosts, std::uint32_t encoding,
+                                std::uint32_t bits, const double* origin, double step) {
     return guarded(decoder, [&]() -> Status {
+        if (vsplit::crc32c(std::as_bytes(std::span(bytes, size))) != crc32c)
+            return vsplit::Error{vsplit::Cause::kCorrupt, "base mesh: its CRC-32C does not fit its bytes", ""};
         const Expected<PositionGrid> grid = grid_of(encoding, bits, origin, step);
         if (!grid) return grid.error();
         Expected<TriangleMesh> base =

@@ -27,9 +27,10 @@ int vsplit_decoder_begin(vsplit_decoder* decoder, const double* positions, uint3
 int vsplit_decoder_begin_keyframe(vsplit_decoder* decoder, const double* positions, uint32_t vertices, const uint32_t* indices,
                                   uint32_t faces, uint32_t ghosts, uint32_t first_record);
 
-/// Begins with a packed one: `bits`, `origin` (3 doubles) and `step` of QUANTISED, 0, 0 and 0 of FLOAT32.
-int vsplit_decoder_begin_packed(vsplit_decoder* decoder, const uint8_t* bytes, size_t size, uint32_t vertices, uint32_t faces,
-                                uint32_t ghosts, uint32_t encoding, uint32_t bits, const double* origin, double step);
+/// Begins with a packed one and its checksum: `bits`, `origin` (3 doubles) and `step` of QUANTISED, 0, 0 and 0 of FLOAT32.
+int vsplit_decoder_begin_packed(vsplit_decoder* decoder, const uint8_t* bytes, size_t size, uint32_t crc32c, uint32_t vertices,
+                                uint32_t faces, uint32_t ghosts, uint32_t encoding, uint32_t bits, const double* origin,
+                                double step);
 
 /// Begins with the bytes of a `.vsplit` file, and brings all its records. The level to show is shown.
 int vsplit_decoder_load(vsplit_decoder* decoder, const uint8_t* bytes, size_t size);

@@ -19,7 +19,7 @@ def _load():
         library = ctypes.CDLL(str(file))
     except OSError as error:
         raise ImportError(f"{file} is missing or not for this machine: use the package that the build makes, "
-                          "BUILD/client/python, or the installed one, not the sources") from error
+                          "BUILD/python, or the installed one, not the sources") from error
     pointer = ctypes.c_void_p
     doubles = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
     indices = np.ctypeslib.ndpointer(np.uint32, flags="C_CONTIGUOUS")
@@ -29,7 +29,7 @@ def _load():
         ("error", _BYTES, [pointer]),
         ("begin_keyframe", ctypes.c_int, [pointer, doubles, _U32, indices, _U32, _U32, _U32]),
         ("begin_packed", ctypes.c_int,
-         [pointer, _BYTES, ctypes.c_size_t, _U32, _U32, _U32, _U32, _U32, ctypes.c_double * 3, ctypes.c_double]),
+         [pointer, _BYTES, ctypes.c_size_t, _U32, _U32, _U32, _U32, _U32, _U32, ctypes.c_double * 3, ctypes.c_double]),
         ("load", ctypes.c_int, [pointer, _BYTES, ctypes.c_size_t]),
         ("set_regions", ctypes.c_int, [pointer, indices, _U32]),
         ("add_set", ctypes.c_int, [pointer, _BYTES, indices, _U32]),
@@ -81,7 +81,7 @@ class Decoder:
         """`part`: any BaseMesh message of the stream."""
         origin = (ctypes.c_double * 3)(part.origin.x, part.origin.y, part.origin.z)
         self._check(_library.vsplit_decoder_begin_packed(
-            self._decoder, packed, len(packed), part.vertices, part.faces, part.ghosts, part.encoding,
+            self._decoder, packed, len(packed), part.packed_crc32c, part.vertices, part.faces, part.ghosts, part.encoding,
             part.quantisation_bits, origin, part.step))
 
     def load(self, data):

@@ -1,5 +1,6 @@
 """A representation that a client holds, as far as it has come."""
 
+import operator
 import pathlib
 
 import numpy as np
@@ -7,6 +8,14 @@ import numpy as np
 from .decoder import CorruptError, Decoder
 from .v1 import meshing_pb2 as v1
 from .words import word_of
+
+
+def _resolution(faces):
+    """`faces` as what a resolution may be asked for by."""
+    whole = operator.index(faces)  # numpy's integers too; TypeError for others
+    if not 0 < whole < 2**32:
+        raise ValueError(f"faces is {whole}; accepted is a whole number from 1 to {2**32 - 1}, of which the nearest is taken")
+    return whole
 
 
 class _Shown:
@@ -70,7 +79,7 @@ class StoredMesh(_Shown):
         return self._decoder.faces_held
 
     def _show(self, faces):
-        self._decoder.show(self._made_for if faces is None else faces)
+        self._decoder.show(self._made_for if faces is None else _resolution(faces))
 
 
 def load(path):
@@ -113,7 +122,7 @@ class Mesh(_Shown):
         return self._client._fetch(self, faces, self.representation.id)
 
     def _show(self, faces):
-        wanted = self.representation.faces if faces is None else faces
+        wanted = self.representation.faces if faces is None else _resolution(faces)
         if wanted < self._faces_min:
             self._leave_keyframe()
         if wanted > self._decoder.faces_held or not self._decoder.faces_held:

@@ -293,6 +293,7 @@ private:
         collapser_->queue() = EdgeQueue(0, 0);  // its memory goes to those of the parts
         const double collapses = parts.deep_share() * (mesh_.live_faces() - faces) / 2;
         PartedCollapse<Policy>(setting(), guards(), log_, parts, context_).run(static_cast<std::size_t>(collapses), [this] {
+            note_evaluated();
             report_simplified();
         });
         collapser_->queue() = EdgeQueue(0, mesh_.half_edge_count());

@@ -41,9 +41,10 @@ struct SimplifyInput {
 /// faces_min is reached. On an open boundary vertices join only along it, corners of it stay, and a vertex from inside joins it
 /// where it is; no loop gets under three edges. Collapses are exactly in order of priority, ties by edge number.
 ///
-/// An `Extended` policy cuts a large mesh into parts that are worked on at the same time (MeshParts), each in that order, and then
-/// between them: the result is the same whatever the number of threads. It adds flips after each collapse, and rounds of flips and moves of vertices to begin with, whenever a fifth
-/// of the faces is gone, and at `faces`; they are records of the MRR as collapses are.
+/// An `Extended` policy cuts a large mesh into parts that are worked on at the same time (MeshParts), each in that order, and
+/// then between them: the result is the same whatever the number of threads. It adds flips after each collapse, and rounds of
+/// flips and moves of vertices to begin with, whenever a fifth of the faces is gone, and at `faces`; they are records of the MRR
+/// as collapses are.
 ///
 /// Takes as many threads as the task arena it is called in. Stages "evaluate" and "simplify". CANCELLED. O(n log n) for bounded
 /// valence.
