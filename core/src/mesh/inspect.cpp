@@ -1,7 +1,5 @@
 #include "vsplit/mesh/inspect.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/for_each_in_parallel.h"
 #include "base/huge_pages.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/half_edges.h"
@@ -20,13 +19,6 @@ namespace vsplit {
 namespace {
 
 constexpr double kDegenerateStretch = 1e-9;
-
-template <class Visit>
-void for_each_in_parallel(std::size_t count, Visit visit) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t n = range.begin(); n < range.end(); ++n) visit(n);
-    });
-}
 
 /// Counts things of one kind and keeps the first few places.
 class FindingCounter {

@@ -1,9 +1,8 @@
 #include "simplify/mesh_parts.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include "base/for_each_in_parallel.h"
 
 namespace vsplit {
 namespace {
@@ -13,13 +12,6 @@ constexpr std::uint32_t kFacesAPart = 12288;
 
 /// Parts begin at multiples of so many faces: marks of half-edges that share a byte are of one part.
 constexpr std::uint32_t kAlignment = 4;
-
-template <class Visit>
-void for_each_in_parallel(std::uint32_t count, Visit visit) {
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 4096), [&](const tbb::blocked_range<std::uint32_t>& range) {
-        for (std::uint32_t n = range.begin(); n < range.end(); ++n) visit(n);
-    });
-}
 
 }  // namespace
 
@@ -58,7 +50,8 @@ void MeshParts::find_owners(const HalfEdgeMesh& mesh) {
                                             [](std::uint32_t f, const Faces& part) { return f < part.begin; });
         return static_cast<std::uint32_t>(after - faces_.begin() - 1);
     };
-    for_each_in_parallel(mesh.vertex_count(), [&](std::uint32_t v) {
+    for_each_in_parallel(mesh.vertex_count(), [&](std::size_t n) {
+        const auto v = static_cast<std::uint32_t>(n);
         if (mesh.outgoing(v) == kNone || mesh.is_ghost(v)) return;
         owner_[v] = part_of(face_of(mesh.outgoing(v)));
         const Faces own = faces_[owner_[v]];
@@ -71,13 +64,14 @@ void MeshParts::find_owners(const HalfEdgeMesh& mesh) {
 /// Raises those that have no neighbour less deep.
 void MeshParts::deepen(const HalfEdgeMesh& mesh, Depth from, Depth to) {
     std::vector<std::uint8_t> raised(mesh.vertex_count(), 0);
-    for_each_in_parallel(mesh.vertex_count(), [&](std::uint32_t v) {
+    for_each_in_parallel(mesh.vertex_count(), [&](std::size_t n) {
+        const auto v = static_cast<std::uint32_t>(n);
         if (depth_[v] < from) return;
         bool surrounded = true;
         mesh.for_each_outgoing(v, [&](HalfEdge h) { surrounded &= depth_[mesh.target(h)] >= from; });
         raised[v] = surrounded ? 1 : 0;
     });
-    for_each_in_parallel(mesh.vertex_count(), [&](std::uint32_t v) {
+    for_each_in_parallel(mesh.vertex_count(), [&](std::size_t v) {
         if (raised[v] != 0) depth_[v] = to;
     });
 }

@@ -20,9 +20,10 @@ struct Progress {
 
 /// What a long verb runs in: who hears of its progress, who may stop it, how many threads it may take.
 ///
-/// Progress is reported at every stage and every 1024 collapses, always on the thread that called the verb. A cancel is obeyed
-/// every 64 collapses and between passes over all faces: well under 10 ms while simplifying, as long as a pass takes elsewhere.
-/// Not copyable; must outlive the call. `cancel()` may be called from any thread.
+/// Progress is reported at every stage and every 1024 collapses, or after each round of those made in parts of a large mesh,
+/// always on the thread that called the verb. A cancel is obeyed every 64 collapses and between passes over all faces: well under
+/// 10 ms while simplifying, as long as a pass takes elsewhere. Not copyable; must outlive the call. `cancel()` may be called from
+/// any thread.
 class ExecutionContext {
 public:
     using ProgressHandler = std::function<void(const Progress&)>;
